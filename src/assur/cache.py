@@ -19,6 +19,7 @@ KINDS = {
     "loops": "formulas as machine code",
     "closed_forms": "closed forms that have passed",
     "readings": "mechanisms' files as they were read",
+    "modes": "names of modes",
     "consent": "Python of mechanisms that may run",
 }
 """Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""

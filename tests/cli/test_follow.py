@@ -33,10 +33,10 @@ def test_a_stop_is_an_answer_with_its_reason(assur_cli):
     assert "(without a unit: lengths in units of 194 mm)" in text
 
 
-def test_a_mechanism_without_working_signs_is_told_by_those_that_it_has(assur_cli):
+def test_modes_that_a_file_does_not_name_bear_the_names_of_closing_blocks(assur_cli):
     run = assur_cli("follow", "three_upu", "--to", "1", "1", "170")
     assert run.code == 0
-    assert "mode: assembly +, kept" in run.out
+    assert "mode: working +++, assembly +, kept" in run.out
 
 
 def test_a_person_sees_a_dozen_points_of_a_path_from_home(assur_cli):

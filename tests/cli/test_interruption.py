@@ -53,7 +53,7 @@ def test_a_search_hands_over_the_solutions_that_it_has(assur_cli, at_call, monke
     told(run)
     assert run.json["interrupted"] is True
     assert len(run.json["solutions"]) == 2
-    assert f"a search from {search.LARGEST} starts" in run.json["right"]
+    assert f"a search from {search.STARTS} starts" in run.json["right"]
 
 
 def test_before_anything_is_found_nothing_is_printed(assur_cli, at_call):

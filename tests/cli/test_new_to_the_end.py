@@ -20,7 +20,7 @@ def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
     gaps = [max(abs(a - float(b)) for a, b in zip(item["pose"], POSE, strict=True)) for item in direct["solutions"]]
     assert min(gaps) < 1e-5
 
-    verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, "--mode", "1", "--json")
+    verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, "--mode=+-+", "--json")
     assert verdict.code == 0
     path = assur_cli("follow", "hybrid.toml", "--to", "20", "20", "330", "--json").json
     assert path["stopped"] is None
@@ -55,6 +55,6 @@ def test_a_spherical_wrist_goes_through_what_is_asked_of_a_pose(assur_cli, tmp_p
     assert min(gaps) < 1e-5
     assert len(direct["solutions"]) <= 8  # the degree of its direct problem
 
-    assert assur_cli("singularity", "wrist.toml", "--pose", *pose, "--mode", "1").code == 0
+    assert assur_cli("singularity", "wrist.toml", "--pose", *pose, "--mode=++-").code == 0
     assert assur_cli("follow", "wrist.toml", "--to", *pose, "--json").json["stopped"] is None
     assert assur_cli("indices", "wrist.toml", "--pose", *pose).code == 0

@@ -10,7 +10,7 @@ from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.model.pose import is_angle

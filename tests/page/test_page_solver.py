@@ -13,7 +13,7 @@ import pytest
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closing_system
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.page.content import content

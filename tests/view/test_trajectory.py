@@ -7,7 +7,7 @@ import assur
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import closure_error
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.view.snapshot import start, to_poses
 from assur.view.trajectory import around, through
 

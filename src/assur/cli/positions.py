@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 Positions = DirectAnswer | InverseAnswer
 
+LETTERS = "a letter for each solution, which is not kept along paths"
+"""How modes read where no sign tells them apart."""
+
 
 def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
     """The outcome of one problem.
@@ -66,7 +69,7 @@ def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[Render
     yield _completeness(record, data)
     if data.solutions and not data.limits_stated:
         yield "No limits are stated."
-    yield from _modes(record, data)
+    yield from _modes(data)
 
 
 def _headline(record: Mechanism, data: Positions, branches: int) -> str:
@@ -250,22 +253,15 @@ def _completeness(record: Mechanism, data: Positions) -> str:
     return f"Only this mode was asked for, of {model}{how}."
 
 
-def _modes(record: Mechanism, data: Positions) -> Iterable[str]:
-    """How the modes read: their signs, their numbers, their crossed parallelograms."""
-    signs = _signs(record, data)
+def _modes(data: Positions) -> Iterable[str]:
+    """How the modes read: their signs, the letters after them, their crossed parallelograms."""
     texts = [item.mode for item in data.solutions]
-    parts = [f"the signs of {signs}"] if signs else []
+    parts = [f"the signs of {', '.join(data.signs)}"] if data.signs else []
+    if any(text.partition("~")[0].strip("+-0") for text in texts):
+        parts.append("a letter where several share them, which is not kept along paths" if parts else LETTERS)
     if any("~" in text for text in texts):
         parts.append("after ~ a crossed parallelogram")
-    if any("/" in text for text in texts) or not signs:
-        parts.append("a number among those that share the rest" if parts else "a number")
-    yield f"mode: {', '.join(parts)}"
+    yield f"mode: {', '.join(parts) or 'there is one'}"
+    yield from (f"  {name} is +: {meaning}" for name, meaning in data.signs.items() if not meaning.endswith(" > 0"))
     if data.home_by:
         yield data.home_by
-
-
-def _signs(record: Mechanism, data: Positions) -> str:
-    form = record.closed_form
-    if data.curves and form is not None and form.self_motion is not None:
-        return ", ".join(form.self_motion.signs)
-    return ", ".join(record.modes.assembly if data.problem == "direct" else record.modes.working)

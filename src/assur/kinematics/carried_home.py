@@ -6,7 +6,7 @@ import numpy as np
 
 from assur.errors import UsageError
 from assur.kinematics.closure import Assembly, assemble, gap_left
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.named_signs import written_modes
 from assur.model.dimensions import of_file, with_parameters
 from assur.model.mechanism import MechanismRecord
 
@@ -55,7 +55,10 @@ def _fault(record: MechanismRecord, assembly: Assembly) -> str:
     if not bool(assembly.closed):
         return gap_left(record, assembly)
     original = of_file(record)
-    before, now = mode_names(original, assemble(original, original.home).values), mode_names(record, assembly.values)
+    before, now = (
+        written_modes(original, assemble(original, original.home).values),
+        written_modes(record, assembly.values),
+    )
     if now == before:
         return ""
     names = [" ".join(filter(None, pair)) for pair in (now, before)]

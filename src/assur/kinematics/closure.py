@@ -36,7 +36,7 @@ FloatArray = NDArray[np.float64]
 CLOSED = 1e-9
 """A loop counts as closed when its residual is at most this times the characteristic length."""
 
-BLOCK = 384
+BLOCK = 256
 """Configurations that are closed at a time: their matrices stay in the cache."""
 
 MANY = 512
@@ -130,17 +130,14 @@ def _loop_twists(configuration: Configuration) -> Outputs:
     }
 
 
-def closing_numbers(configuration: Configuration) -> Outputs:
-    """Gaps and their exact derivative, the platform's frame and twists: what closes the loops, also at a pose.
-
-    Of each loop the derivative has lengths first, then angular velocities of the turn that is left.
-    """
+def _gaps_and_rates(configuration: Configuration) -> Outputs:
+    """Gaps, and how fast they change: of each loop lengths first, then angular velocities of the turn that is left."""
     rates = {
         f"derivative {6 * index + (row + 3) % 6},{column}": number
         for index, cut in enumerate(configuration.graph.cut)
         for row, column, number in _gap_rates(configuration, cut)
     }
-    return {**_gaps(configuration), **rates, **platform_numbers(configuration), **platform_moves(configuration)}
+    return {**_gaps(configuration), **rates}
 
 
 def _gap_rates(configuration: Configuration, cut: Joint) -> Iterator[tuple[int, int, Any]]:
@@ -169,6 +166,11 @@ def _gap_rates(configuration: Configuration, cut: Joint) -> Iterator[tuple[int, 
                     yield row, column, times(sense, number)
 
 
+def closing_numbers(configuration: Configuration) -> Outputs:
+    """Gaps and their exact derivative, the platform's frame and twists: what closes the loops, also at a pose."""
+    return {**_gaps_and_rates(configuration), **platform_numbers(configuration), **platform_moves(configuration)}
+
+
 def closing_system(
     record: MechanismRecord, values: FloatArray, poses: FloatArray | None
 ) -> tuple[FloatArray, FloatArray]:
@@ -190,7 +192,7 @@ def closing_system(
     (True, (1, 8, 5))
     """
     length, count = characteristic_length(record), len(record.coordinates)
-    system = program(record, closing_numbers)  # also without poses: recording it twice costs more than its last lines
+    system = program(record, _gaps_and_rates if poses is None else closing_numbers)
     numbers = system(record, values)
     loops = len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)
@@ -258,9 +260,7 @@ def assemble(
         trial = values[rows]
         trial[:, free] = unknowns * scale
         gaps, derivative = closing_system(record, trial, None if asked is None else asked[rows])
-        own = derivative[..., free]
-        own *= scale / length
-        return gaps / length, own
+        return gaps / length, derivative[..., free] * (scale / length)
 
     turns = [range(k, k + 3) for k in range(len(free)) for turn in joint_graph(record).turns if free[k] == turn.start]
 

@@ -15,8 +15,8 @@ from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
 from assur.kinematics.loops.loops import crossed_parallelograms
-from assur.kinematics.modes import Problem, is_of_mode, mode_texts, numbered
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.modes import Problem, is_of_mode, lettered, mode_texts
+from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import status_of
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
@@ -108,8 +108,8 @@ class JointGraphSolutions(SolutionSet):
 
     @cached_property
     def labels(self) -> NDArray[np.str_]:
-        """Text (..., K) of the mode: the signs of the file's quantities, and a number where several share them."""
-        return numbered(np.char.add(mode_texts(self._signs(self.problem)), self._crossed), self._there)
+        """Text (..., K) of the mode: signs, and a letter where several solutions of a problem share them."""
+        return lettered(np.char.add(mode_texts(self._signs(self.problem)), self._crossed), self._there)
 
     @cached_property
     def other_labels(self) -> NDArray[np.str_]:
@@ -153,9 +153,8 @@ class JointGraphSolutions(SolutionSet):
 
     def _signs(self, problem: Problem) -> NDArray[np.int8]:
         """Signs (..., K, s) of the quantities that name modes; 0 where one vanishes."""
-        known = named_signs(self.record, problem, self.assemblies[self._there], FACTOR_TOLERANCE)
-        signs = np.zeros((*self._there.shape, known.shape[-1]), dtype=np.int8)
-        signs[self._there] = known
+        signs = np.zeros((*self._there.shape, len(sign_meanings(self.record, problem))), dtype=np.int8)
+        signs[self._there] = signs_at(self.record, problem, self.assemblies[self._there], FACTOR_TOLERANCE)
         return signs
 
     @cached_property

@@ -97,33 +97,51 @@ def mode_texts(signs: NDArray[np.int8]) -> NDArray[np.str_]:
     return texts
 
 
-def numbered(texts: NDArray[np.str_], exists: NDArray[np.bool_]) -> NDArray[np.str_]:
-    """Texts (..., K) that tell solutions apart: those that several solutions of one problem share get a number.
+def lettered(texts: NDArray[np.str_], exists: NDArray[np.bool_]) -> NDArray[np.str_]:
+    """Texts (..., K) that tell solutions apart: those whose signs several of one problem share get a letter after them.
 
-    >>> numbered(np.array(["+", "-", "+", "+"]), np.array([True, True, True, False])).tolist()
-    ['+/1', '-', '+/2', '']
-    >>> numbered(np.array(["", ""]), np.array([True, True])).tolist()
-    ['1', '2']
+    A letter is given in the order of the candidates, at every problem anew: it is not kept along paths. What follows a
+    tilde, crossed parallelograms, is no sign.
+
+    >>> lettered(np.array(["+", "-", "+", "+"]), np.array([True, True, True, False])).tolist()
+    ['+a', '-', '+b', '']
+    >>> lettered(np.array(["~Pa1", "~Pa1", ""]), np.array([True, True, True])).tolist()
+    ['a~Pa1', 'b~Pa1', 'a']
     """
-    longest = texts.dtype.itemsize // 4 + 1 + len(str(texts.shape[-1]))
-    answer = np.zeros(texts.shape, dtype=f"<U{longest}")
+    answer = np.zeros(texts.shape, dtype=f"<U{texts.dtype.itemsize // 4 + 2}")
     for place in np.ndindex(texts.shape[:-1]):
         rows = np.flatnonzero(exists[place])
         own = texts[place][rows]
         for k, row in enumerate(rows):
-            number = int(np.sum(own[: k + 1] == own[k]))
-            shared = int(np.sum(own == own[k])) > 1 or not own[k]
-            answer[(*place, row)] = f"{own[k]}{'/' if own[k] else ''}{number}" if shared else own[k]
+            signs, tilde, crossed = str(own[k]).partition("~")
+            letter = _letter(int(np.sum(own[:k] == own[k]))) if np.sum(own == own[k]) > 1 or not signs else ""
+            answer[(*place, row)] = f"{signs}{letter}{tilde}{crossed}"
     return answer
 
 
-def is_of_mode(labels: NDArray[np.str_], mode: str) -> NDArray[np.bool_]:
-    """Which labels (..., K) a mode means: that one, or, where it has no number, all that share its signs.
+def _letter(number: int) -> str:
+    """a, b, ... z, aa, ab, ..."""
+    return (_letter(number // 26 - 1) if number >= 26 else "") + chr(ord("a") + number % 26)
 
-    >>> is_of_mode(np.array(["+/1", "+/2", "-"]), "+").tolist()
+
+def without_letter(label: str) -> str:
+    """The signs of a mode, and its crossed parallelograms.
+
+    >>> without_letter("+-b~Pa1"), without_letter("a")
+    ('+-~Pa1', '')
+    """
+    signs, tilde, crossed = label.partition("~")
+    return signs.rstrip("abcdefghijklmnopqrstuvwxyz") + tilde + crossed
+
+
+def is_of_mode(labels: NDArray[np.str_], mode: str) -> NDArray[np.bool_]:
+    """Which labels (..., K) a mode means: that one, or, where it has no letter, all that share its signs.
+
+    >>> is_of_mode(np.array(["+a", "+b", "-"]), "+").tolist()
     [True, True, False]
     """
-    return np.asarray((labels == mode) | np.char.startswith(labels, f"{mode}/"))
+    alike = [label == mode or without_letter(label) == mode for label in map(str, labels.reshape(-1))]
+    return np.array(alike, dtype=bool).reshape(labels.shape)
 
 
 def sign_axes(names: Sequence[str], batch_axes: int = 1) -> SimpleNamespace:

@@ -32,6 +32,6 @@ def named_signs(record: MechanismRecord, problem: Problem, joints: FloatArray, z
     return signs
 
 
-def mode_names(record: MechanismRecord, joints: FloatArray) -> tuple[str, str]:
-    """Working and assembly mode of joint values (n,); "" where the file names none."""
+def written_modes(record: MechanismRecord, joints: FloatArray) -> tuple[str, str]:
+    """Working and assembly mode of joint values (n,) by the file's quantities; "" where it names none."""
     return mode_text(named_signs(record, "inverse", joints)), mode_text(named_signs(record, "direct", joints))

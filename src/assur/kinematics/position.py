@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from types import SimpleNamespace
 from typing import get_args
@@ -20,6 +21,8 @@ from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
+MOST_SIGNS = 6
+"""Signs up to which every mode is listed where an unknown one is refused."""
 
 
 def direct(
@@ -123,10 +126,10 @@ def _answer(
             return _branches(record, problem, given, mode)
         from assur.kinematics.closed_form.polynomials import polynomial_solutions  # no branch needs it
 
-        return polynomial_solutions(record, kernel, given, _numbered_mode(record, problem, mode), method)
+        return polynomial_solutions(record, kernel, given, _lettered_mode(record, problem, mode), method)
     from assur.kinematics.assemblies import assemblies  # loops and searches, which no closed form needs
 
-    return assemblies(record, problem, given, _numbered_mode(record, problem, mode), method, crossed=crossed)
+    return assemblies(record, problem, given, _lettered_mode(record, problem, mode), method, crossed=crossed)
 
 
 def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None) -> Branches:
@@ -149,15 +152,21 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
 
 
-def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:
-    """A mode as it may be asked of solutions that carry numbers: signs, a number, or both."""
+def _lettered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:
+    """A mode as it may be asked of solutions on the joint graph: signs, a letter of those that share them, or both.
+
+    A number names none: before, it counted the solutions of one pose.
+    """
     if mode is None:
         return ""
-    count = len(sign_names(record, problem))
-    crossed, number = r"(~[\w.]+)*", r"([1-9]\d*)"
-    if not re.fullmatch(rf"[-+0]{{{count}}}{crossed}(/{number})?" if count else rf"{crossed}/?{number}?", mode):
-        signs = all_modes(record, problem) if count else ("1", "2")
-        raise UnknownNameError(f"{_kind(problem)} of {record.name}", mode, signs, hint="a number may follow, as in +/2")
+    from assur.kinematics.naming import sign_meanings  # blocks of the joint graph, which a closed form does without
+
+    names = list(sign_meanings(record, problem))
+    if not re.fullmatch(rf"[-+0]{{{len(names)}}}[a-z]{{0,2}}(~[\w.]+)*", mode):
+        choices = ["".join(signs) for signs in itertools.product("+-", repeat=min(len(names), MOST_SIGNS))]
+        each = f"one sign + or - for each of: {', '.join(names)}; " if names else ""
+        hint = f"{each}a letter may follow, as in {'+' * len(names)}a, where several solutions share them"
+        raise UnknownNameError(f"{_kind(problem)} of {record.name}", mode, choices if names else ["a", "b"], hint=hint)
     return mode
 
 

@@ -29,9 +29,8 @@ from assur.numerics import rotations
 from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
-STARTS, LARGEST = 192, 384
-"""Starts that are closed together at least and at most: of fewer the last that close keep all arrays short, more than
-the search still has to meet would seldom be needed, and matrices of more leave the cache."""
+STARTS = 192
+"""Starts that are closed together: of fewer the last that close keep all arrays short, more would seldom be needed."""
 MOST = 16 * STARTS
 WAY = 16
 """Starts on the way from home, where turns count."""
@@ -83,7 +82,7 @@ def _searched(
     known = np.empty((0, len(record.coordinates)))
     starts, last, nearest, again = 0, 0, np.inf, 0
     while starts < MOST and again < _enough(known):
-        begun = _starts(record, known, min(max(STARTS, _enough(known) - again), LARGEST), rng)
+        begun = _starts(record, known, rng)
         try:
             if starts == 0:
                 begun[0] = home_values(record)
@@ -102,7 +101,7 @@ def _searched(
         if len(kept) > len(known):
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
-        known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + len(begun)
+        known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + STARTS
         work.at(starts, MOST, f"{len(known)} assemblies so far")
     return Search(known, starts, last, nearest, again >= _enough(known))
 
@@ -111,13 +110,13 @@ def _enough(known: FloatArray) -> int:
     return AGAIN * max(len(known), LEAST)
 
 
-def _starts(record: MechanismRecord, known: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
-    """Joint values (count, n)."""
+def _starts(record: MechanismRecord, known: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Joint values (STARTS, n)."""
     if not len(known):
-        return by_chance(record, count, rng)
-    share = count // 3
+        return by_chance(record, STARTS, rng)
+    share = STARTS // 3
     parts = (
-        by_chance(record, count - 2 * share, rng),
+        by_chance(record, STARTS - 2 * share, rng),
         redrawn(record, known, share, rng),
         mixed(record, known, share, rng),
     )

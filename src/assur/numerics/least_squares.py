@@ -62,39 +62,35 @@ def minimise(
     >>> minimise(system, np.array([[1.0]]), tolerance=1e-14).x.round(6)
     array([[1.414214]])
     """
-    x, active = np.array(start, dtype=float), np.arange(len(start))
-    left = np.full(len(x), np.inf)
-    at, damped, raised = x.copy(), np.full(len(x), damping), np.full(len(x), RAISED)
-    residual, jacobian = system(at, active)
+    x = np.array(start, dtype=float)
+    damped, raised = np.full(len(x), damping), np.full(len(x), RAISED)
+    residual, jacobian = system(x, np.arange(len(x)))
     error = np.einsum("ni,ni->n", residual, residual)
     steps = 0
-    while True:
-        x[active], left[active] = at, np.max(np.abs(residual), axis=1, initial=0.0)
-        going = (left[active] > tolerance) & ~_in_valley(residual, jacobian)
-        if steps == max_steps or not np.any(going):
+    while steps < max_steps:
+        active = np.flatnonzero(np.max(np.abs(residual), axis=1, initial=0.0) > tolerance)
+        active = active[~_in_valley(residual[active], jacobian[active])]
+        if not len(active):
             break
-        if not np.all(going):  # arrays of those that go on alone: a gather at every use costs as much as a step
-            active, at, damped, raised = active[going], at[going], damped[going], raised[going]
-            residual, jacobian, error = residual[going], jacobian[going], error[going]
         steps += 1
-        change = _step(residual, jacobian, damped, max_change)
-        trial = at + change if same is None else same(at + change)
+        change = _step(residual[active], jacobian[active], damped[active], max_change)
+        trial = x[active] + change if same is None else same(x[active] + change)
         new_residual, new_jacobian = system(trial, active)
         new_error = np.einsum("ni,ni->n", new_residual, new_residual)
-        expected = residual + (jacobian @ change[..., None])[..., 0]
-        gain = error - np.einsum("ni,ni->n", expected, expected)
-        ratio = np.clip((error - new_error) / np.maximum(gain, 1e-300), -1.0, 1.0)
-        refused = ~(new_error < error)
-        for new, old in ((trial, at), (new_residual, residual), (new_jacobian, jacobian), (new_error, error)):
-            new[refused] = old[refused]
-        at, residual, jacobian, error = trial, new_residual, new_jacobian, new_error
-        lowered = np.maximum(damped * np.maximum(LOWERED, 1.0 - (2.0 * ratio - 1.0) ** 3), 1e-15)
-        damped = np.where(refused, np.minimum(np.maximum(damped, 1e-9) * raised, 1e8), lowered)
-        raised = np.where(refused, raised * 2.0, RAISED)
-        if np.all(damped >= 1e8):
-            x[active], left[active] = at, np.max(np.abs(residual), axis=1, initial=0.0)
+        expected = residual[active] + (jacobian[active] @ change[..., None])[..., 0]
+        gain = error[active] - np.einsum("ni,ni->n", expected, expected)
+        ratio = np.clip((error[active] - new_error) / np.maximum(gain, 1e-300), -1.0, 1.0)
+        better = new_error < error[active]
+        accepted, refused = active[better], active[~better]
+        x[accepted], residual[accepted] = trial[better], new_residual[better]
+        jacobian[accepted], error[accepted] = new_jacobian[better], new_error[better]
+        lowered = np.maximum(LOWERED, 1.0 - (2.0 * ratio[better] - 1.0) ** 3)
+        damped[accepted] = np.maximum(damped[accepted] * lowered, 1e-15)
+        damped[refused] = np.minimum(np.maximum(damped[refused], 1e-9) * raised[refused], 1e8)
+        raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
+        if np.all(damped[active] >= 1e8):
             break
-    return LeastSquaresResult(x, left <= tolerance, steps)
+    return LeastSquaresResult(x, np.max(np.abs(residual), axis=1, initial=0.0) <= tolerance, steps)
 
 
 def _in_valley(residual: FloatArray, jacobian: FloatArray) -> BoolArray:

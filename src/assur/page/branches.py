@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_names
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.kinematics.postures import Posture, postures, unwound
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status

@@ -19,7 +19,7 @@ from assur.kinematics.following.course import Prescribed, Turns
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.locked import general_ranks
 from assur.kinematics.home import home_values
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.view.dials import dials, pose_with, read

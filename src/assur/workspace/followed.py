@@ -26,8 +26,9 @@ from assur.kinematics.following.ending import Mode
 from assur.kinematics.following.followed_grid import Continuation, Followed
 from assur.kinematics.following.following import follow
 from assur.kinematics.home import home_values
-from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.modes import mode_signs, sign_names, without_letter
 from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import mode_names
 from assur.kinematics.parasitic import all_coordinates
 from assur.kinematics.position import inverse
 from assur.kinematics.turns import periodic
@@ -245,7 +246,7 @@ def over_grid(
 
 
 def _signs(record: MechanismRecord, mode: str) -> NDArray[np.int8]:
-    text = mode.split("/")[0].split("~")[0]
+    text = without_letter(mode).partition("~")[0]
     if not sign_names(record, "inverse"):
         return np.zeros(0, dtype=np.int8)
     return np.array(mode_signs(record, "inverse", text), dtype=np.int8)
@@ -258,7 +259,7 @@ def _start(
     size = grid.dimension
     low, high = grid.low[:size], grid.high[:size]
     spread = grid.box.spread(STARTS, np.random.default_rng(0))
-    if not mode.strip("+-") and np.array_equal(named_signs(record, "inverse", home_values(record)), signs):
+    if mode in ("", mode_names(record, home_values(record))[0]):
         home = all_coordinates(record, home_values(record))
         own = np.array([home[name] for name in slice_.free])
         for point in (np.clip(own, low, high), 0.5 * (low + high), *spread[: STARTS // 3]):

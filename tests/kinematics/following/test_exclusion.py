@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
-from assur.kinematics.following.exclusion import of_other_signs, otherwise
+from assur.kinematics.following.exclusion import of_other_signs
 from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.named_signs import named_signs
 from assur.kinematics.position import inverse
 from assur.kinematics.status import Status
+from assur.kinematics.still import otherwise
 from assur.mechanism import load
 from assur.performance.indices import indices
 from assur.singularity.verdict import verdict
@@ -90,9 +91,9 @@ def test_commands_exit_4_and_name_the_other_modes(path, record, command, capsys)
     assert main([command, path, "--pose", beyond]) == 4
     said = " ".join(capsys.readouterr().out.split())
     assert "home's mode does not reach it, which is proved" in said
-    assert "the solutions in other modes: 1, 2" in said
+    assert "the solutions in other modes: -, +" in said
     assert main([command, path, "--pose", beyond, "--json"]) == 4
-    assert json.loads(capsys.readouterr().out)["known_modes"] == ["1", "2"]
+    assert json.loads(capsys.readouterr().out)["known_modes"] == ["-", "+"]
     assert main(["follow", path, "--from", beyond, "--to", "0"]) == 4
     assert "does not reach it, which is proved" in " ".join(capsys.readouterr().out.split())
 

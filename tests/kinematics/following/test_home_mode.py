@@ -9,6 +9,7 @@ from assur.cli.main import main
 from assur.joint_graph.frames import frames
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.home_mode import home_mode_at
+from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
 from assur.mechanism import load
@@ -45,7 +46,7 @@ def test_where_a_path_leads_the_verdict_is_that_of_its_end(drafted):
     assert np.allclose(back.joints[-1], drafted.home_values, atol=1e-6)
     here = verdict(drafted, REACHED)
     assert (here.kind, here.home, here.home_by) == ("regular", True, "home's mode, followed straight from home")
-    assert verdict(drafted, REACHED, "1").home
+    assert verdict(drafted, REACHED, mode_names(drafted, there.joints)[0]).home
 
 
 def test_where_only_another_assembly_is_the_answer_is_undecided(drafted):
@@ -58,7 +59,7 @@ def test_where_only_another_assembly_is_the_answer_is_undecided(drafted):
     index = indices(drafted, np.stack([REACHED, UNREACHED]))
     assert index.status.tolist() == [Status.regular, Status.undecided]
     assert np.isnan(index["condition"][1])
-    named = verdict(drafted, UNREACHED, "1")
+    named = verdict(drafted, UNREACHED, str(found.labels[found.exists][0]))
     assert (named.kind, named.home) == ("regular", False)
     assert "another assembly than that of home" in named.home_by
 
@@ -78,7 +79,8 @@ def test_commands_say_by_what_it_is_home_and_exit_5_where_it_is_not_reached(path
     assert "home's mode, followed straight from home" in capsys.readouterr().out
     assert main([command, path, "--pose", "10", "300", "5"]) == 5
     assert "paths from home leads there in home's mode, which is no proof" in " ".join(capsys.readouterr().out.split())
-    assert main([command, path, "--pose", "10", "300", "5", "--mode", "1"]) == 0
+    found = load(path).inverse(UNREACHED)
+    assert main([command, path, "--pose", "10", "300", "5", f"--mode={found.labels[found.exists][0]}"]) == 0
     assert "another assembly than that of home" in capsys.readouterr().out
 
 

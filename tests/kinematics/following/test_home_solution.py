@@ -24,7 +24,7 @@ def path(tmp_path_factory):
     return path
 
 
-def test_numbers_are_marked_by_following(path):
+def test_solutions_are_marked_by_following(path):
     record = load(path)
     found = inverse(record, [100.0])
     home = home_solution(found)
@@ -32,7 +32,8 @@ def test_numbers_are_marked_by_following(path):
     apart = np.max(np.abs(np.sin((found.joints[found.exists] - end) / 2)), axis=1)
     assert len(home.marks) == 4
     assert list(home.marks) == (apart < 1e-6).tolist()
-    assert home.words == f"home: mode {home.marks.index(True) + 1}, followed straight from home"
+    label = found.labels[found.exists][home.marks.index(True)]
+    assert home.words == f"home: mode {label}, followed straight from home"
 
 
 def test_where_home_folds_back_no_solution_is_marked_and_where_a_path_stops_it_is_not_decided(path):
@@ -66,8 +67,8 @@ def test_roots_that_share_signs_are_told_apart_by_following():
     found = direct(record, [300.0, 300.0, 300.0])
     home = home_solution(found)
     labels = found.labels[found.exists]
-    assert sorted(labels) == ["+/1", "+/2", "-/1", "-/2"]
-    assert [str(label) for label, mark in zip(labels, home.marks, strict=True) if mark] == ["+/1"]
+    assert sorted(labels) == ["+a", "+b", "-a", "-b"]
+    assert [str(label) for label, mark in zip(labels, home.marks, strict=True) if mark] == ["+a"]
 
 
 def test_another_mode_alone_is_not_home():
@@ -84,7 +85,7 @@ def test_commands_mark_it_in_text_and_in_json(path, capsys):
     assert main(["inverse", path, "100"]) == 0
     lines = capsys.readouterr().out.splitlines()
     titles, rows = lines[3], lines[5:9]
-    assert titles.split()[:4] == ["mode", "q1", "[deg]", "home"]
+    assert titles.split()[:5] == ["mode", "q1", "[deg]", "assembly", "home"]
     assert [" yes " in row for row in rows].count(True) == 1
     assert any(line.endswith("followed straight from home") for line in lines)
     assert main(["inverse", path, "100", "--json"]) == 0

@@ -21,6 +21,7 @@ from assur.kinematics.answers.solution import Failure, Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.following.home_solution import home_solution
 from assur.kinematics.limits import limits_stated
+from assur.kinematics.naming import sign_meanings
 from assur.kinematics.parasitic import all_coordinates, moving
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
@@ -59,6 +60,7 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
             for a, b, apart in doubles(record, solutions.joints[solutions.exists])
         ),
         "home_by": home.words,
+        "signs": _signs(solutions),
         "curves": tuple(
             PoseCurve(
                 curve.parameter,
@@ -82,6 +84,14 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
         for item, said in marked
     )
     return InverseAnswer(**shared, pose=pose_at_border(record, solutions.given).tolist(), solutions=tuple(inputs))
+
+
+def _signs(solutions: SolutionSet) -> dict[str, str]:
+    """The signs of the modes; on a curve of poses those that name its arcs."""
+    form = solutions.record.closed_form
+    if solutions.curves and form is not None and form.self_motion is not None:
+        return {name: f"{name} > 0" for name in form.self_motion.signs}
+    return dict(sign_meanings(solutions.record, solutions.problem))
 
 
 def missing(record: MechanismRecord, failures: tuple[Failure, ...]) -> tuple[NegativeQuantity, ...]:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from assur.kinematics import border
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.doubtful import decided
-from assur.kinematics.modes import is_of_mode, mode_texts, numbered, sign_axes
+from assur.kinematics.modes import is_of_mode, lettered, mode_texts, sign_axes, sign_names
+from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin
 from assur.model.mechanism import MechanismRecord
@@ -37,7 +38,7 @@ SPARE = 20
 class RootBranches(Branches):
     """The branches of an eliminant, in the order of its real roots.
 
-    They are numbered, not named by signs alone: two of one sign can often be joined without a singularity.
+    They bear letters, and are not named by signs alone: two of one sign can often be joined without a singularity.
 
     Attributes:
         dropped: (..., K) whether a root is no solution of its own: the second copy of a double one, or not real.
@@ -78,8 +79,12 @@ class RootBranches(Branches):
 
     @cached_property
     def labels(self) -> NDArray[np.str_]:
-        """Text (..., K): the signs, and a number where several solutions share them."""
-        return numbered(mode_texts(self.modes), self._distinct)
+        """Text (..., K): the signs, and a letter where several solutions share them."""
+        if sign_names(self.record, "direct"):
+            return lettered(mode_texts(self.modes), self._distinct)
+        signs = np.zeros((*self._distinct.shape, len(sign_meanings(self.record, "direct"))), dtype=np.int8)
+        signs[self._distinct] = signs_at(self.record, "direct", self.joints[self._distinct])
+        return lettered(mode_texts(signs), self._distinct)
 
     @cached_property
     def exists(self) -> BoolArray:

@@ -15,7 +15,9 @@ from assur.kinematics.closed_form.closed_form_sweep import ClosedFormSweep
 from assur.kinematics.closed_form.grid_sweep import ALL, GridSweep
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.home_sweep import HOME, HomeSweep
+from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, mode_signs
+from assur.kinematics.naming import mode_names
 from assur.kinematics.status import branch_kernel
 from assur.model.mechanism import MechanismRecord
 
@@ -81,7 +83,7 @@ def stored_sweep(
             raise UnknownNameError(f"dimension of {record.name}", name, record.parameters)
     if record.closed_form is None:
         kind: type[GridSweep] = HomeSweep
-        mode = _home(record, mode)
+        mode = _home(record, problem, mode)
         allowed = quantities(problem, ALL)
     else:
         kind = ClosedFormSweep
@@ -97,9 +99,9 @@ def stored_sweep(
     return kind(record, problem, grid, mode, tuple(dict.fromkeys(keep)) or usual)
 
 
-def _home(record: MechanismRecord, mode: str) -> str:
-    """The one mode that is swept without a closed form."""
-    if mode not in ("", HOME):
+def _home(record: MechanismRecord, problem: Problem, mode: str) -> str:
+    """The one mode that is swept without a closed form, by any of its names."""
+    if mode not in ("", HOME) and mode != mode_names(record, home_values(record))[problem == "direct"]:
         raise UsageError(
             f"{record.name} has no closed form: a sweep follows home's mode, not '{mode}'",
             hint="leave the mode out; `assur inverse` and `assur direct` give every mode of one problem",

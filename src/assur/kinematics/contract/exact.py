@@ -6,8 +6,8 @@ identity of formulas, but for an error whose probability the degrees of the form
 
 from __future__ import annotations
 
-import hashlib
 import math
+import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -24,7 +24,7 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.degrees import Degree, Degrees
-from assur.numerics.prime_field import LARGE, SMALL, PrimeField
+from assur.numerics.prime_field import LARGE, PrimeField
 from assur.numerics.residues import Draws, Residues, inverted
 from assur.work import stage
 
@@ -41,8 +41,6 @@ ENOUGH = 1e-24
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
 SURE = 1e-15
 """An error with a probability below this is none."""
-FAILURES = ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError
-"""Dimensions that are drawn may divide by zero, and Python that was let run may know floats alone."""
 
 
 @dataclass(frozen=True)
@@ -98,17 +96,13 @@ def exactness(record: MechanismRecord, most: int = AGAIN) -> Exactness:
 
     Args:
         record: with a closed form.
-        most: so many primes at most for each problem; few show what is wrong, and may prove nothing. A small one, whose
-            arithmetic is quick, is then tried first: what it does not deny is right but for bad luck.
+        most: so many primes at most for each problem; few show what is wrong, and may prove nothing.
 
     >>> from assur.model.registry import load_record
     >>> exactness(load_record("fivebar")).proved
     True
     """
-    problems = problems_by_formulas(record)
-    if most < AGAIN and _passes(record, problems):
-        return Exactness(undecided="nothing was denied modulo a small prime")
-    return _exactness(record, problems, most)
+    return _exactness(record, problems_by_formulas(record), most)
 
 
 @lru_cache(maxsize=64)
@@ -120,23 +114,6 @@ def inverse_exactness(record: MechanismRecord) -> Exactness:
     'the formulas close the joint graph: exact, error < 1e-15'
     """
     return _exactness(record, ("inverse",), AGAIN, equations=False)
-
-
-def _passes(record: MechanismRecord, problems: tuple[Problem, ...]) -> bool:
-    """Whether a small prime for each problem denies nothing, with dimensions that are drawn."""
-    random = _random(record)
-    try:
-        trials = [Trial(record, problem, True, random, SMALL) for problem in problems]
-        return all(trial.places and trial.mismatch() is None for trial in trials)
-    except FAILURES:
-        return False
-
-
-def _random(record: MechanismRecord) -> np.random.Generator:
-    """What draws: the same for the same files and dimensions, whose author cannot choose it for all that."""
-    description = record.description
-    texts = [record.closed_form_text, description.text if description else record.name, repr(record.overrides)]
-    return np.random.default_rng(int(hashlib.sha256("\0".join(texts).encode()).hexdigest(), 16))
 
 
 def _exactness(
@@ -161,7 +138,7 @@ class _Attempt:
 
     def exactness(self, most: int) -> Exactness:
         """What the draws say, of so many primes for each problem at most."""
-        random = _random(self.record)
+        random = np.random.default_rng(secrets.randbits(64))
         error, trials = 0.0, list[Trial]()
         for problem in self.problems:
             missed, met, first = 1.0, dict[int, set[int]](), len(trials)
@@ -169,9 +146,8 @@ class _Attempt:
                 try:
                     trial = Trial(self.record, problem, self.general, random)
                     broken = trial.mismatch(equations=self.equations)
-                    if not broken:
-                        trial.bound(equations=self.equations)
-                except FAILURES as reason:
+                except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
+                    # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
                     return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=self.general)
                 if broken:
                     return Exactness((broken,), general=self.general)
@@ -225,16 +201,9 @@ class Trial:
         degree: the largest of a polynomial that must vanish.
     """
 
-    def __init__(
-        self,
-        record: MechanismRecord,
-        problem: Problem,
-        general: bool,
-        random: np.random.Generator,
-        least: int = LARGE,
-    ) -> None:
+    def __init__(self, record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator) -> None:
         self.record, self.problem, self.general = record, problem, general
-        field, self._drawn = PrimeField.drawn(random, least), DRAWS
+        field, self._drawn = PrimeField.drawn(random, LARGE), DRAWS
         while True:
             self.draws = SoundDraws(field, self._drawn, random)
             self.question = DrawnProblem(record, problem, self.draws, general)
@@ -275,33 +244,23 @@ class Trial:
         return np.asarray(2 ** np.arange(len(minus)) @ minus)
 
     def mismatch(self, *, equations: bool = True) -> Mismatch | None:
-        """The first claim that is broken.
+        """The first claim that is broken; the error is known afterwards.
 
         Args:
             equations: whether those of the direct problem are looked at.
         """
         if not self.places:
+            self.error = 1.0
             return None
         self.draws.keep(self._looked_at())
-        return (
-            self._broken(self.question.claims())
-            or self._wrong_rates()
-            or self._broken(iter(self._determinants))
-            or (self._broken(self.question.equations()) if equations else None)
-        )
-
-    def bound(self, *, equations: bool = True) -> None:
-        """Bound the error of having found no claim broken."""
-        if not self.places:
-            self.error = 1.0
-            return
         degrees = DrawnProblem(self.record, self.problem, Degrees(self.draws.roots), self.general)
-        claims = [*degrees.determinants(), *degrees.claims()]  # in the order in which the roots were drawn
-        rates = degrees.rates()
-        claims += degrees.equations() if equations else ()
-        for number in (number for claim in claims for number in claim.numbers if isinstance(number, Degree)):
-            self._missed(number)
-        self._missed(_minor([*rates.closure, *rates.relation], len(rates.relation[0]) + 1))
+        determinants = tuple(degrees.determinants())
+        return (
+            self._broken(self.question.claims(), degrees.claims())
+            or self._wrong_rates(degrees)
+            or self._broken(iter(self._determinants), iter(determinants))
+            or (self._broken(self.question.equations(), degrees.equations()) if equations else None)
+        )
 
     def _looked_at(self) -> NDArray[np.intp]:
         """Draws held against the joint graph: one of each choice of signs, and all where radicands are tied."""
@@ -310,8 +269,8 @@ class Trial:
             sound = sound[np.unique(self._choices[sound], return_index=True)[1]]
         return np.resize(sound, max(2, len(sound)))
 
-    def _broken(self, claims: Iterator[Vanishing]) -> Mismatch | None:
-        for claim in claims:
+    def _broken(self, claims: Iterator[Vanishing], degrees: Iterator[Vanishing]) -> Mismatch | None:
+        for claim, own in zip(claims, degrees, strict=True):
             wrong = np.zeros(self.draws.count, dtype=bool)
             for number in claim.numbers:
                 wrong |= self._wrong(number)
@@ -320,6 +279,9 @@ class Trial:
                 text = f"{claim.text} {self._where(wrong)}"
                 name = claim.name or self._label(wrong, claim.part)
                 return Mismatch(claim.part, name, self.problem, text, claim.allowed, self._hint)
+            for number in own.numbers:
+                if isinstance(number, Degree):
+                    self._missed(number)
         return None
 
     def _missed(self, number: Degree) -> None:
@@ -359,12 +321,14 @@ class Trial:
         signs = [sign.re[first] for sign in self.question.signs.values()]
         return "".join("+" if sign == 1 else "-" for sign in signs) if part == "branch" else ""
 
-    def _wrong_rates(self) -> Mismatch | None:
-        for line, wrong in enumerate(unexplained(self.draws, self.question.rates()), 1):
+    def _wrong_rates(self, degrees: DrawnProblem) -> Mismatch | None:
+        rates, bounds = self.question.rates(), degrees.rates()
+        for line, wrong in enumerate(unexplained(self.draws, rates), 1):
             if np.any(wrong):
                 text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph {self._where(wrong)}"
                 allowed = "every motion of the joint graph must obey it"
                 return Mismatch("Jp and Jq", f"row {line}", self.problem, text, allowed, self._hint)
+        self._missed(_minor([*bounds.closure, *bounds.relation], len(bounds.relation[0]) + 1))
         return None
 
 

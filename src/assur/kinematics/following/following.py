@@ -21,7 +21,7 @@ from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.stopping import stop_at
 from assur.kinematics.following.ways import Stretch, system_of
 from assur.kinematics.limits import limits
-from assur.kinematics.named_signs import mode_names
+from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.work import stage

@@ -21,7 +21,7 @@ from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import in_range, inputs_of
 from assur.kinematics.following.course import Prescribed, Turns
-from assur.kinematics.following.exclusion import MERGED, of_other_signs, otherwise
+from assur.kinematics.following.exclusion import MERGED, of_other_signs
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.path import Path, Stop
 from assur.kinematics.home import home_values
@@ -31,6 +31,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
+from assur.kinematics.still import otherwise
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations

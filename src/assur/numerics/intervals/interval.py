@@ -28,7 +28,6 @@ BoolArray = NDArray[np.bool_]
 Real: TypeAlias = "FloatArray | float | int"
 Ends: TypeAlias = "tuple[FloatArray, ...]"
 NUMBERS = (np.ndarray, np.generic, float, int)
-LARGEST = float(np.finfo(float).max)
 
 
 def _between_numbers(operation: Callable[[Any, Any], Interval]) -> Callable[[Any, Any], Interval]:
@@ -96,7 +95,7 @@ class Interval:
     @property
     def middle(self) -> FloatArray:
         """A float (...) inside: the middle, or a finite number where a bound is infinite."""
-        low, high = np.clip(self.low, -LARGEST, LARGEST), np.clip(self.high, -LARGEST, LARGEST)
+        low, high = np.nan_to_num(self.low), np.nan_to_num(self.high)
         return np.asarray(np.clip(0.5 * low + 0.5 * high, self.low, self.high))
 
     @property

@@ -6,12 +6,13 @@ So a long tape over arrays stays in the processor's cache, and its text short.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from assur.numerics.recording.tape import Operation, Tape
 
 
-class Assignment(NamedTuple):
+@dataclass(frozen=True)
+class Assignment:
     """One statement: an operation on numbers in registers, whose result goes into a register.
 
     Attributes:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +19,8 @@ from assur.numerics.number_types import Floats
 from assur.numerics.powers import whole_power
 
 
-class Operation(NamedTuple):
+@dataclass(frozen=True)
+class Operation:
     """One entry: an operation on earlier entries, a number, or a place where one is given.
 
     `name` is one of "varying" and "uniform" (given: one per element, or one for all), "number", "+", "-", "*", "/",
@@ -149,7 +150,7 @@ class Recorder:
 
     def apply(self, name: str, *arguments: Any) -> Recorded:
         """The result of an operation, found again where it was done before."""
-        indices = tuple([self._number(argument).index for argument in arguments])
+        indices = tuple(self._number(argument).index for argument in arguments)
         return self._shared(Operation(name, indices))
 
     def tape(self, outputs: Mapping[str, Any]) -> Tape:

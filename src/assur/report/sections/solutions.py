@@ -62,8 +62,10 @@ def _caption(data: Positions) -> Iterator[str]:
         "The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
         "asked, orientation errors times its characteristic length included. A sign written 0 has merged."
     )
-    if any("/" in item.mode for item in data.solutions):
-        yield "A number tells solutions of the same signs apart."
+    if any(item.mode.partition("~")[0].strip("+-0") for item in data.solutions):
+        yield "A letter tells solutions of the same signs apart; it is not kept along paths."
+    for name, meaning in data.signs.items():
+        yield f"{name} is + where {meaning}."
     if data.home_by:
         yield f"{data.home_by[0].upper()}{data.home_by[1:]}."
     for pair in data.doubles:

@@ -163,11 +163,16 @@ class GivenPose:
 
 @dataclass(frozen=True)
 class PositionAnswer(SolvedProblem):
-    """What is said of both problems."""
+    """What is said of both problems.
+
+    `signs` are those of a mode, in order, each with what holds where it is +. Where several solutions share them, a
+    letter follows, which is given at every problem anew.
+    """
 
     status: str
     doubles: tuple[DoubleSolution, ...]
     home_by: str
+    signs: Mapping[str, str]
     curves: tuple[PoseCurve, ...]
     failures: tuple[NegativeQuantity, ...]
 

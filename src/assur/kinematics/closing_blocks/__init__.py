@@ -1,0 +1,1 @@
+"""Closing blocks: the parts of a mechanism that close by themselves, and the signs by which they name its modes."""

@@ -1,0 +1,170 @@
+"""Columns: the screws of all joints, and of what a pose leaves free of the platform, seen from any link."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.frames import Frame, frames, screws
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.kinematics.closure import RANK_GAP, assemble
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import whole_orientation
+from assur.kinematics.rates.motions import motions
+from assur.kinematics.starts import by_chance
+from assur.kinematics.still import otherwise
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import ANGLES, LENGTHS, rate_names
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+STARTS, AROUND = 96, 0.05
+"""Assemblies that are looked at: so many starts by chance, and as many around home, by this share of the way."""
+
+PARASITIC = 1e-6
+"""Share of the largest singular value by which platforms' twists fill no further direction."""
+
+
+@lru_cache(maxsize=64)
+def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
+    """Assemblies (N, n), home first, from starts by chance and from starts around home.
+
+    They are in any working and assembly mode, but what stands still about home stands as there: a Delta robot whose
+    platform is turned is another mechanism.
+
+    >>> from assur.model.registry import load_record
+    >>> len(assemblies_by_chance(load_record("fivebar"))) > 150
+    True
+    """
+    home, rng = home_values(record), np.random.default_rng(0)
+    far = by_chance(record, STARTS, rng)
+    near = home + AROUND * (by_chance(record, STARTS, rng) - home)
+    closed = assemble(record, np.concatenate([near, far]), far=True)
+    values = np.concatenate([home[None], closed.values[closed.closed]])
+    alike = [not other for other in otherwise(record, values)]
+    return values[alike]
+
+
+@lru_cache(maxsize=64)
+def open_freedoms(record: MechanismRecord) -> tuple[str, ...]:
+    """Coordinates of the platform that the pose does not tell; none where the limbs hold what it does not tell.
+
+    >>> from assur.model.registry import load_record
+    >>> open_freedoms(load_record("zeng2019")), open_freedoms(load_record("three_rps"))
+    ((), ('x', 'y', 'phi'))
+    """
+    angles = () if whole_orientation(record.platform.pose) else ANGLES
+    untold = tuple(name for name in (*LENGTHS, *angles) if name not in record.platform.pose)
+    moving = motions(record, assemblies_by_chance(record), RANK_GAP).twists
+    spread = np.linalg.svd(np.concatenate([*moving], axis=1), compute_uv=False)
+    moved = int(np.sum(spread > PARASITIC * spread[0]))
+    return untold if moved > len(rate_names(record.platform.pose)) else ()
+
+
+@dataclass(frozen=True, eq=False)
+class ScrewColumns:
+    """Screws of a mechanism at joint values (N, n).
+
+    Columns are the joint coordinates, then what the pose leaves free of the platform. Velocities count in
+    characteristic lengths. A ball joint's are rotations about the base's axes through its centre, which have the same
+    orientation everywhere.
+    """
+
+    record: MechanismRecord
+    values: FloatArray
+
+    @cached_property
+    def in_base(self) -> FloatArray:
+        """The columns (N, 6, c) in the base frame: angular velocity, velocity at the base's origin."""
+        columns = screws(self.record, self.values)
+        for place in joint_graph(self.record).turns:
+            columns[:, :3, place] = np.eye(3)
+            columns[:, 3:, place] = _about(self.centre(self.record.coordinates[place.start].joint))
+        columns = np.concatenate([columns, self._open_platform], axis=2)
+        columns[:, 3:] /= characteristic_length(self.record)
+        return columns
+
+    def seen_from(self, link: str) -> FloatArray:
+        """The columns (N, 6, c) in the frame of a link."""
+        if link == self.record.base:
+            return self.in_base
+        if link not in self._seen:
+            rotation, origin = self._frames[link]
+            turned = np.swapaxes(np.broadcast_to(rotation, (len(self.values), 3, 3)), -1, -2)
+            shift = np.broadcast_to(origin / characteristic_length(self.record), (len(self.values), 3))
+            angular, velocity = self.in_base[:, :3], self.in_base[:, 3:]
+            moved = velocity + np.cross(angular, shift[:, :, None], axisa=1, axisb=1, axisc=1)
+            self._seen[link] = np.concatenate([turned @ angular, turned @ moved], axis=1)
+        return self._seen[link]
+
+    @cached_property
+    def motions(self) -> FloatArray:
+        """Motions (N, c, F) of the mechanism as rates of the columns."""
+        record, count = self.record, len(self.record.coordinates)
+        owners = [item.joint for item in record.coordinates]
+        graph = joint_graph(record)
+        joints = self.in_base[:, :, :count]
+        loops = [{cut.name: 1, **loop} for cut, loop in zip(graph.cut, graph.loops, strict=True)]
+        rows = [joints * [loop.get(name, 0) for name in owners] for loop in loops]
+        _, sizes, right = np.linalg.svd(np.concatenate(rows, axis=1))
+        rank = int(np.max(np.sum(sizes > RANK_GAP * sizes[:, :1], axis=1)))
+        rates = np.swapaxes(right[:, rank:], -1, -2)
+        twists = joints * [graph.paths[graph.platform].get(name, 0) for name in owners] @ rates
+        return np.concatenate([rates, np.linalg.pinv(self.in_base[:, :, count:]) @ twists], axis=1)
+
+    def centre(self, name: str) -> FloatArray:
+        """Point (N, 3) of a joint on its parent link, in the base frame."""
+        joint = self.record.joints[name]
+        rotation, origin = self._frames[joint.parent]
+        return np.broadcast_to(rotation @ joint.at + origin, (len(self.values), 3))
+
+    def axis(self, name: str) -> FloatArray:
+        """First axis (N, 3) of a joint, in the base frame."""
+        joint = self.record.joints[name]
+        return np.broadcast_to(self._frames[joint.parent][0] @ joint.axes[0], (len(self.values), 3))
+
+    @cached_property
+    def _frames(self) -> dict[str, Frame]:
+        return frames(self.record, self.values)
+
+    @cached_property
+    def _seen(self) -> dict[str, FloatArray]:
+        return {}
+
+    @property
+    def _open_platform(self) -> FloatArray:
+        """Screws (N, 6, k) of the platform that the pose leaves free."""
+        rotation, origin = self._frames[self.record.platform.link]
+        rotation = np.broadcast_to(rotation, (len(self.values), 3, 3))
+        point = rotation @ self.record.platform.point + origin
+        columns = np.zeros((len(self.values), 6, len(open_freedoms(self.record))))
+        about = _about(point)
+        axes = _angle_axes(self.record, rotation)
+        for k, name in enumerate(open_freedoms(self.record)):
+            if name in LENGTHS:
+                columns[:, 3 + LENGTHS.index(name), k] = 1.0
+            else:
+                axis = axes[:, :, ANGLES.index(name)]
+                columns[:, :3, k] = axis
+                columns[:, 3:, k] = np.einsum("nij,nj->ni", about, axis)
+        return columns
+
+
+def _about(point: FloatArray) -> FloatArray:
+    """Velocities (N, 3, 3) at the base's origin of unit rotations about the base's axes through points (N, 3)."""
+    return np.swapaxes(np.cross(point[:, None, :], np.eye(3)), -1, -2)
+
+
+def _angle_axes(record: MechanismRecord, rotation: FloatArray) -> FloatArray:
+    """Axes (N, 3, 3), as columns, about which phi, theta and psi turn; the base's where the pose tells none of them."""
+    if not {*ANGLES} & {*record.platform.pose}:
+        return np.broadcast_to(np.eye(3), rotation.shape)
+    phi, theta, _ = rotations.to_angles(rotation)
+    zero = np.zeros_like(phi)
+    across = np.stack([-np.sin(phi), np.cos(phi), zero], axis=-1)
+    last = np.stack([np.cos(phi) * np.cos(theta), np.sin(phi) * np.cos(theta), -np.sin(theta)], axis=-1)
+    return np.stack([np.broadcast_to([0.0, 0.0, 1.0], across.shape), across, last], axis=-1)

@@ -1,0 +1,92 @@
+"""Signs of modes, kept in the user's cache: plain data, by the mechanism's file, its dimensions and assur's version."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from assur.cache import keep, own_content
+from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
+from assur.kinematics.closing_blocks.mode_signs import ModeSign, mode_signs
+from assur.kinematics.closing_blocks.signs import BlockSign, Factor, StrokeSign
+from assur.kinematics.modes import Problem
+from assur.model.mechanism import MechanismRecord
+from assur.version import VERSION
+
+KIND = "modes"
+LARGEST = 10_000_000
+"""Bytes of an entry; a larger one is none of ours."""
+
+
+@lru_cache(maxsize=64)
+def kept_mode_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
+    """The signs that name the modes of a problem, as `mode_signs`, found once for each file.
+
+    >>> from assur.model.registry import load_record
+    >>> [sign.joints for sign in kept_mode_signs(load_record("planar_3rpr"), "direct")]
+    [('A1', 'A2', 'A3', 'B1', 'B2', 'B3')]
+    """
+    if record.description is None:
+        return mode_signs(record, problem)
+    name = _name(record, problem)
+    content = own_content(KIND, name, LARGEST)
+    digest, _, body = (content or b"").partition(b"\n")
+    if body and digest.decode("ascii", "replace") == hashlib.sha256(body).hexdigest():
+        with suppress(ValueError, TypeError, KeyError, RecursionError):
+            return tuple(ModeSign(tuple(_factor(part) for part in sign)) for sign in json.loads(body))
+    signs = mode_signs(record, problem)
+    body = json.dumps([[_data(factor) for factor in sign.factors] for sign in signs]).encode()
+    with suppress(OSError):
+        keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
+    return signs
+
+
+def _name(record: MechanismRecord, problem: Problem) -> str:
+    text = record.description.text if record.description else ""
+    own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
+    parts = (VERSION, _code(), problem, json.dumps(own), text)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"
+
+
+@lru_cache(maxsize=1)
+def _code() -> str:
+    """A digest of the code that finds them: another way to choose signs, other names."""
+    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+
+
+def _data(factor: Factor) -> dict[str, Any]:
+    if isinstance(factor, StrokeSign):
+        return {"slide": factor.slide, "near": factor.near, "far": factor.far, "size": factor.size}
+    block = factor.block
+    return {
+        "joints": block.joints,
+        "loops": [dict(loop) for loop in block.loops],
+        "columns": block.columns,
+        "owners": block.owners,
+        "spins": [[spin.first, spin.second, list(spin.senses)] for spin in block.spins],
+        "links": factor.links,
+        "rates": factor.rates.tolist(),
+        "basis": factor.basis.tolist(),
+        "size": factor.size,
+    }
+
+
+def _factor(data: Mapping[str, Any]) -> Factor:
+    if "slide" in data:
+        return StrokeSign(data["slide"], data["near"], data["far"], float(data["size"]))
+    block = ClosingBlock(
+        tuple(data["joints"]),
+        tuple(data["loops"]),
+        tuple(data["columns"]),
+        tuple(data["owners"]),
+        tuple(Spin(first, second, (senses[0], senses[1])) for first, second, senses in data["spins"]),
+    )
+    return BlockSign(block, tuple(data["links"]), np.array(data["rates"]), np.array(data["basis"]), float(data["size"]))

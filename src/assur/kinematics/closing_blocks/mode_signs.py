@@ -1,0 +1,156 @@
+"""Mode signs: the fewest signs of closing blocks that tell the solutions of a problem apart.
+
+Each changes at singularities alone, so that a name is kept along every regular path. A rod between universal joints
+can stand in two ways that look alike, half a turn about its line apart; a sign that differs between them is joined
+with another one that does, so that what looks alike bears one name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
+from assur.kinematics.closing_blocks.signs import Factor, factors
+from assur.kinematics.closure import assemble
+from assur.kinematics.modes import Problem
+from assur.kinematics.pose import pose_of
+from assur.kinematics.search import SAME, places
+from assur.kinematics.starts import by_chance
+from assur.kinematics.still import otherwise
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int_]
+SignArray = NDArray[np.int8]
+PROBLEMS, STARTS = 3, 160
+"""Problems whose solutions are to be told apart, home's first, and starts by chance for each."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModeSign:
+    """One sign of a mode's name.
+
+    Attributes:
+        factors: whose product it is.
+    """
+
+    factors: tuple[Factor, ...]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Those of all factors."""
+        return tuple(dict.fromkeys(name for factor in self.factors for name in factor.joints))
+
+    def signs(self, screws: ScrewColumns) -> SignArray:
+        """Signs (N,); 0 where one of the factors vanishes."""
+        signs: SignArray = np.prod([factor.signs(screws) for factor in self.factors], axis=0, dtype=np.int8)
+        return signs
+
+
+@lru_cache(maxsize=64)
+def mode_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
+    """The signs that name the modes of a problem; home reads + in each.
+
+    >>> from assur.model.registry import load_record
+    >>> [sign.joints for sign in mode_signs(load_record("fivebar"), "direct")]
+    [('B1', 'B2', 'P')]
+    """
+    known = factors(record, problem)
+    answers = [_Solutions.of(record, problem, target, known) for target in _targets(record)]
+    combinations = _alike_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
+    order = _separating(columns, [answer.solution for answer in answers])
+    return tuple(ModeSign(tuple(known[k] for k in combinations[place])) for place in sorted(order))
+
+
+@dataclass(frozen=True, eq=False)
+class _Solutions:
+    """Solutions of one problem by chance: which (N,) of them each assembly is, and its signs (N, s)."""
+
+    solution: IntArray
+    signs: SignArray
+
+    @classmethod
+    def of(cls, record: MechanismRecord, problem: Problem, target: FloatArray, known: Sequence[Factor]) -> _Solutions:
+        values = _solved(record, problem, target)
+        where = places(record, values)
+        solution = np.zeros(len(values), dtype=int)
+        firsts: list[int] = []
+        for row, place in enumerate(where):
+            apart = np.max(np.abs(where[firsts] - place), axis=1) if firsts else np.zeros(0)
+            if not len(apart) or np.min(apart) > SAME:
+                firsts.append(row)
+                solution[row] = len(firsts) - 1
+            else:
+                solution[row] = int(np.argmin(apart))
+        screws = ScrewColumns(record, values)
+        signs = np.array([factor.signs(screws) for factor in known], dtype=np.int8).reshape(len(known), len(values)).T
+        regular = np.all(signs != 0, axis=1)
+        return cls(solution[regular], signs[regular])
+
+    @property
+    def alike(self) -> NDArray[np.bool_]:
+        """Which signs (P, s) differ between assemblies that look alike."""
+        rows = [self.signs[self.solution == number] for number in np.unique(self.solution)]
+        return np.unique(np.concatenate([own != own[:1] for own in rows]), axis=0)
+
+
+def _targets(record: MechanismRecord) -> FloatArray:
+    """Assemblies (P, n), home first, whose inputs or poses are asked."""
+    values = assemblies_by_chance(record)
+    return values[:: -(-len(values) // PROBLEMS)]
+
+
+def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> FloatArray:
+    """Assemblies (N, n) at the inputs or the pose of another, in which still stands what does about home."""
+    begun = np.concatenate([target[None], by_chance(record, STARTS, np.random.default_rng(0))])
+    if problem == "direct":
+        starts = held_inputs(record, begun, inputs_of(record, target))
+        closed = assemble(record, starts, held=record.input_indices, far=True)
+    else:
+        closed = assemble(record, begun, poses=pose_of(record, target), far=True)
+    values = closed.values[closed.closed]
+    return values[[not other for other in otherwise(record, values)]]
+
+
+def _alike_alike(differing: NDArray[np.bool_], count: int) -> list[list[int]]:
+    """Sets of signs whose product is the same wherever assemblies look alike: as many as are independent.
+
+    By elimination modulo 2: `differing` (P, s) are the signs that differ in a pair of such assemblies.
+    """
+    known: list[tuple[NDArray[np.bool_], set[int]]] = []
+    answer = []
+    for sign in range(count):
+        left, chosen = differing[:, sign].copy(), {sign}
+        for column, own in known:
+            if left[np.argmax(column)]:
+                left, chosen = left ^ column, chosen ^ own
+        if np.any(left):
+            known.append((left, chosen))
+        else:
+            answer.append(sorted(chosen))
+    return answer
+
+
+def _separating(columns: Sequence[Sequence[SignArray]], solutions: Sequence[IntArray]) -> Iterator[int]:
+    """The columns that tell most pairs of solutions apart that those before them did not, until none tells more."""
+    firsts = [np.unique(solution, return_index=True)[1] for solution in solutions]
+    pairs = [np.triu_indices(len(rows), 1) for rows in firsts]
+    apart = [
+        np.concatenate([own[rows][a] != own[rows][b] for own, rows, (a, b) in zip(column, firsts, pairs, strict=True)])
+        for column in columns
+    ]
+    left = np.ones(sum(len(a) for a, _ in pairs), dtype=bool)
+    while np.any(left) and apart:
+        gains = [int(np.sum(own & left)) for own in apart]
+        best = int(np.argmax(gains))
+        if not gains[best]:
+            return
+        left &= ~apart[best]
+        yield best

@@ -1,0 +1,84 @@
+"""Sentences: what the + of a sign means, in the letters of the joints."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assur.kinematics.closing_blocks.blocks import PLATFORM
+from assur.kinematics.closing_blocks.columns import ScrewColumns
+from assur.kinematics.closing_blocks.mode_signs import ModeSign
+from assur.kinematics.closing_blocks.signs import BlockSign, StrokeSign
+from assur.kinematics.home import home_values
+from assur.model.mechanism import MechanismRecord
+
+PARALLEL = 1e-9
+"""Sine of the angle between axes up to which they are parallel: they are written, or turned by a limb's angle."""
+
+
+def sign_name(record: MechanismRecord, sign: ModeSign, taken: set[str]) -> str:
+    """A short name that is not taken yet: of the limb that has all its joints, of the platform for most joints.
+
+    >>> from assur.kinematics.closing_blocks.mode_signs import mode_signs
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("planar_3rrr")
+    >>> [sign_name(record, sign, set()) for sign in mode_signs(record, "inverse")]
+    ['leg1', 'leg2', 'leg3']
+    """
+    joints = [name for name in sign.joints if name != PLATFORM]
+    limbs = [limb.name for limb in record.chains.values() if {*joints} <= {*limb.serial, *limb.loop, *limb.tail}]
+    prefixes = {name.rpartition(".")[0] for name in joints}
+    if limbs:
+        base = limbs[0]
+    elif len(prefixes) == 1 and "" not in prefixes:
+        base = prefixes.pop()
+    else:
+        base = "platform" if len(joints) > len(record.joints) / 2 else f"{joints[0]}-{joints[-1]}"
+    names = (base, *(f"{base} {number}" for number in range(2, len(taken) + 3)))
+    return next(name for name in names if name not in taken)
+
+
+def sentence(record: MechanismRecord, sign: ModeSign) -> str:
+    """What holds where a sign is +, as it does at home.
+
+    >>> from assur.kinematics.closing_blocks.mode_signs import mode_signs
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("planar_3rrr")
+    >>> print(sentence(record, mode_signs(record, "inverse")[0]))
+    leg1.B lies on the right of the line from leg1.A to leg1.C
+    """
+    screws = ScrewColumns(record, home_values(record)[None])
+    if len(sign.factors) == 1:
+        factor = sign.factors[0]
+        if isinstance(factor, StrokeSign):
+            side = "ahead of" if factor.size > 0 else "behind"
+            return f"{factor.far} lies {side} {factor.near} along {factor.slide}"
+        side = _dyad_side(screws, factor)
+        if side:
+            return side
+    joints = ", ".join(_text(name) for name in sign.joints)
+    return f"the loops of {joints} stand on home's side of where they are singular"
+
+
+def _dyad_side(screws: ScrewColumns, factor: BlockSign) -> str:
+    """On which side of the line through two parallel hinges the third lies; "" of any other block.
+
+    It is seen from where the axis of the first points to.
+    """
+    names = factor.joints
+    record = screws.record
+    if len(factor.block.loops) != 1 or len(names) != 3 or PLATFORM in names:
+        return ""
+    types = [record.joints[name].type for name in names]
+    if not all((own.turns, own.slides, own.ball) == (1, 0, False) for own in types):
+        return ""
+    first, middle, last = (screws.centre(name)[0] for name in names)
+    axes = [screws.axis(name)[0] for name in names]
+    if max(np.linalg.norm(np.cross(axes[0], axis)) for axis in axes) > PARALLEL:
+        return ""
+    turn = float(np.cross(last - first, middle - first) @ axes[0])
+    where = "left" if turn > 0 else "right"
+    return f"{names[1]} lies on the {where} of the line from {names[0]} to {names[2]}"
+
+
+def _text(name: str) -> str:
+    return "the platform" if name == PLATFORM else name

@@ -1,0 +1,240 @@
+"""Signs of closing blocks: on which side of its own singularities a block stands.
+
+The passive derivative A of a block has full column rank wherever the block is regular. Where its columns span one
+space everywhere, each loop seen from a link of its own, det(U^T A) with a basis U of that space is a function of the
+configuration that vanishes at singularities alone: its sign is kept along every regular path. Planar, spherical and
+translational blocks are of that kind, and those whose loops are independent in all six directions.
+
+What closes by itself where further links are held gives signs too: a motion of it alone is one of the whole mechanism.
+So the signs of smaller parts split that of a larger one into factors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import combinations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closing_blocks.blocks import (
+    SMALL,
+    ClosingBlock,
+    ClosingGroup,
+    closing_groups,
+    loop_blocks,
+    spin_rates,
+)
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
+from assur.kinematics.modes import Problem
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+SignArray = NDArray[np.int8]
+MERGED = 1e-9
+"""Share of a block's largest determinant among assemblies by chance below which it has no sign."""
+
+SAME_SPACE = 1e-4
+"""Share of the largest singular value by which bases of one space fill no further direction."""
+
+PAIRS = 14
+"""Links up to which two of them are held at once, in search of factors."""
+
+
+@dataclass(frozen=True, eq=False)
+class BlockSign:
+    """The sign of a closing block.
+
+    Attributes:
+        block: the block.
+        links: from which each of its loops is seen.
+        rates: (k, d) basis of the rates that its joints have in motions of the mechanism.
+        basis: (6 L, r) of the space that its screws span there at such rates.
+        size: of its largest determinant among assemblies by chance, negative where home would read minus.
+    """
+
+    block: ClosingBlock
+    links: tuple[str, ...]
+    rates: FloatArray
+    basis: FloatArray
+    size: float
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Those of the block."""
+        return self.block.joints
+
+    def determinants(self, screws: ScrewColumns) -> FloatArray:
+        """The block's determinant (N,) as a share of its largest among assemblies by chance; positive at home."""
+        return np.asarray(np.linalg.det(self.matrices(screws)) / self.size)
+
+    def matrices(self, screws: ScrewColumns) -> FloatArray:
+        """The block's square matrices (N, d, d): its derivative in its own space, bordered by spins."""
+        own = self.basis.T @ self.block.derivative(screws, self.links)
+        spins = [spin_rates(spin, screws)[:, None, list(self.block.columns)] for spin in self.block.spins]
+        return np.concatenate([own, *spins], axis=1) @ self.rates
+
+    def signs(self, screws: ScrewColumns) -> SignArray:
+        """Signs (N,); 0 where the block is singular."""
+        values = self.determinants(screws)
+        return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
+
+
+@dataclass(frozen=True, eq=False)
+class StrokeSign:
+    """The sign of a stroke: on which side of one joint's centre another lies, along a slide between the two.
+
+    Both are ball or universal joints, so that a stroke of zero is a singularity; the square of it is what a block's
+    determinant has as a factor.
+
+    Attributes:
+        slide: the prismatic joint.
+        near, far: the joints on its parent and on its child link.
+        size: the stroke at home.
+    """
+
+    slide: str
+    near: str
+    far: str
+    size: float = 1.0
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The three of them."""
+        return self.near, self.slide, self.far
+
+    def strokes(self, screws: ScrewColumns) -> FloatArray:
+        """The stroke (N,) as a share of home's."""
+        line = screws.centre(self.far) - screws.centre(self.near)
+        return np.asarray(np.einsum("ni,ni->n", line, screws.axis(self.slide)) / self.size)
+
+    def signs(self, screws: ScrewColumns) -> SignArray:
+        """Signs (N,); 0 where the joints are in one place."""
+        values = self.strokes(screws)
+        return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
+
+
+Factor = BlockSign | StrokeSign
+"""A function of the configuration whose sign only changes at singularities."""
+
+
+@lru_cache(maxsize=64)
+def factors(record: MechanismRecord, problem: Problem) -> tuple[Factor, ...]:
+    """All signs that change at singularities of a problem alone, those of fewer joints first; home reads + in each.
+
+    >>> from assur.model.registry import load_record
+    >>> [factor.joints for factor in factors(load_record("fivebar"), "inverse")]
+    [('A2', 'B2', 'P'), ('A1', 'B1', 'platform in its pose')]
+    """
+    screws = ScrewColumns(record, assemblies_by_chance(record))
+    signs: list[Factor] = [*_stroke_signs(screws), *_loop_signs(screws), *_block_signs(record, problem, screws)]
+    return tuple(sorted(signs, key=lambda sign: len(sign.joints)))
+
+
+def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
+    record = screws.record
+    centred = [name for name, joint in record.joints.items() if joint.type.ball or joint.type.turns == 2]
+    for name, slide in record.joints.items():
+        if (slide.type.slides, slide.type.turning) != (1, False):
+            continue
+        for near, far in product(centred, repeat=2):
+            ends = [{record.joints[end].parent, record.joints[end].child} for end in (near, far)]
+            if near == far or slide.parent not in ends[0] or slide.child not in ends[1]:
+                continue
+            line = screws.centre(far) - screws.centre(near)
+            off = np.linalg.norm(np.cross(line, screws.axis(name)), axis=1)
+            if np.max(off) < SMALL * characteristic_length(record):
+                stroke = float(StrokeSign(name, near, far).strokes(screws)[0])
+                if stroke:
+                    yield StrokeSign(name, near, far, stroke)
+
+
+def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
+    """Signs of single loops that move in one way at all configurations, as parallelograms: where one is flat it is 0.
+
+    What they do besides in no motion has a determinant, that vanishes where the loop loses rank.
+    """
+    for block in loop_blocks(screws.record):
+        own = _span(screws.motions[:, list(block.columns)])
+        across = np.linalg.svd(own)[0][:, own.shape[1] :]
+        sign = _sign(block, screws, across)
+        if sign is not None:
+            yield sign
+
+
+def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns) -> Iterator[BlockSign]:
+    """Signs of the problem's blocks, then of those with the platform held in its whole pose, or any link, or any two.
+
+    Where all screws of a group span one space, its determinant is the product of those of its blocks. Elsewhere that
+    of the group at rates of motions has a sign, and the last block, which moves by itself.
+    """
+    links = [link for link in record.links if link != record.base]
+    held: list[tuple[str, ...]] = [(), *((link,) for link in links)]
+    if len(links) <= PAIRS:
+        held += combinations(links, 2)
+    poses = (False, True) if problem == "inverse" and open_freedoms(record) else (False,)
+    met = set()
+    for links_held, whole_pose in product(held, poses):
+        for group in closing_groups(record, problem, links_held, whole_pose):
+            if group.whole.columns not in met:
+                met.add(group.whole.columns)
+                yield from _of_group(group, screws)
+
+
+def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
+    whole = _sign(group.whole, screws)
+    blocks = group.blocks if whole is not None else group.blocks[-1:]
+    along = None if whole is not None else _sign(group.whole, screws, _motion_rates(group.whole, screws))
+    signs = [whole, along, *(_sign(block, screws) for block in blocks)]
+    yield from (sign for sign in signs if sign is not None)
+
+
+def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = None) -> BlockSign | None:
+    """A block's sign, at rates of any kind or in the span (k, d) of some; None where its screws span no one space."""
+    rates = np.eye(len(block.columns)) if rates is None else rates
+    if not rates.shape[1]:
+        return None
+    links = tuple(_steadiest(block, number, screws) for number in range(len(block.loops)))
+    matrices = block.derivative(screws, links) @ rates
+    left, sizes, _ = np.linalg.svd(matrices, full_matrices=False)
+    ranks = np.sum(sizes > SMALL * sizes[:, :1], axis=1)
+    rank = int(np.max(ranks))
+    basis = _span(left[ranks == rank][:, :, :rank])
+    spinning = rates.shape[1] - rank
+    if basis.shape[1] != rank or spinning > len(block.spins):
+        return None
+    for spins in combinations(block.spins, spinning):
+        trial = BlockSign(replace(block, spins=spins), links, rates, basis, 1.0)
+        values = trial.determinants(screws)
+        size = float(np.max(np.abs(values)))
+        if np.max(np.linalg.matrix_rank(trial.matrices(screws), tol=SMALL)) == rates.shape[1]:
+            return replace(trial, size=-size if values[0] < -MERGED * size else size)
+    return None
+
+
+def _motion_rates(block: ClosingBlock, screws: ScrewColumns) -> FloatArray:
+    """Basis (k, d) of the rates of a block's columns in all motions of the mechanism, rods not spinning."""
+    motions = screws.motions[:, list(block.columns)]
+    if block.spins:
+        spins = np.stack([spin_rates(spin, screws)[:, list(block.columns)] for spin in block.spins], axis=-1)
+        motions = motions - spins @ (np.linalg.pinv(spins) @ motions)
+    return _span(motions)
+
+
+def _steadiest(block: ClosingBlock, number: int, screws: ScrewColumns) -> str:
+    """The link from which the screws of a loop span the smallest space over all assemblies; the base before others."""
+    record, loop = screws.record, block.loops[number]
+    joints = [record.joints[name] for name in loop if name in record.joints]
+    links = dict.fromkeys([record.base, *(link for joint in joints for link in (joint.parent, joint.child))])
+    own = [column for column, owner in zip(block.columns, block.owners, strict=True) if owner in loop]
+    spans = {link: _span(screws.seen_from(link)[:, :, own]).shape[1] for link in links}
+    return min(spans, key=lambda link: spans[link])
+
+
+def _span(matrices: FloatArray) -> FloatArray:
+    """Orthonormal basis (k, r) of what all columns of matrices (N, k, c) span together."""
+    weights, basis = np.linalg.eigh(np.einsum("nij,nkj->ik", matrices, matrices))
+    return np.asarray(basis[:, weights > SAME_SPACE**2 * np.max(weights, initial=0.0)])

@@ -1,0 +1,43 @@
+"""Blocks in the order of solution: what closes by itself."""
+
+import numpy as np
+import pytest
+
+from assur.kinematics.closing_blocks.blocks import PLATFORM, closing_groups
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
+from assur.model.registry import load_record
+
+
+def blocks(name, problem, **held):
+    return [block for group in closing_groups(load_record(name), problem, **held) for block in group.blocks]
+
+
+@pytest.mark.parametrize(
+    ("name", "problem", "joints"),
+    [
+        ("planar_3rrr", "inverse", [3, 3, 3]),  # each limb, the platform held
+        ("planar_3rrr", "direct", [6]),  # the triad
+        ("fivebar", "direct", [3]),  # the dyad
+        ("gough_stewart", "inverse", [3] * 6),
+        ("gough_stewart", "direct", [12]),
+        ("delta_4s", "inverse", [3, 2] * 3),  # the arm with one rod, then the other
+    ],
+)
+def test_they_are_limbs_with_the_platform_held_and_assur_chains_with_the_inputs_held(name, problem, joints):
+    assert [len(block.joints) for block in blocks(name, problem)] == joints
+
+
+def test_a_pose_that_does_not_hold_the_platform_leaves_a_joint_for_what_is_open():
+    (whole,) = blocks("three_rps", "inverse")
+    assert PLATFORM in whole.joints
+    assert len(whole.columns) == 18
+    assert [len(block.joints) for block in blocks("three_rps", "inverse", whole_pose=True)] == [3, 3, 3]
+
+
+def test_rods_between_ball_joints_spin_and_nothing_else_is_lost():
+    record = load_record("delta_4s")
+    (block,) = blocks("delta_4s", "direct")
+    assert (len(block.columns), len(block.spins), block.rank) == (36, 6, 30)
+    screws = ScrewColumns(record, assemblies_by_chance(record)[:6])
+    matrices = block.derivative(screws, [record.base] * len(block.loops))
+    assert np.max(np.linalg.matrix_rank(matrices, tol=1e-7)) == block.rank

@@ -1,0 +1,103 @@
+"""The names of modes tell solutions apart, and are kept along every regular path."""
+
+import numpy as np
+import pytest
+
+from assur.kinematics.closing_blocks.columns import ScrewColumns
+from assur.kinematics.closing_blocks.mode_signs import _Solutions, mode_signs
+from assur.kinematics.closing_blocks.signs import factors
+from assur.kinematics.closure import closure_jacobian
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import lettered, mode_texts
+from assur.kinematics.position import direct, inverse
+from assur.model.registry import load_record
+from regular_walks import changes
+
+CROSSED = 0.1
+"""Share of the usual distance from a singularity within which a step of a walk ends that has crossed one."""
+
+QUICK = ["fivebar", "zeng2019", "tsai_platform", "planar_3rpr"]
+DEEP = [
+    "delta_4s", "gough_stewart", "h4_robot", "linear_delta_4r", "linear_delta_4s", "orthoglide", "planar_3rrr",
+    "three_crr", "three_p2us", "three_rps", "three_rrc", "three_rrrp4r", "three_upu", "tripteron",
+]  # fmt: skip
+
+
+def signs_of(record, problem, values):
+    screws = ScrewColumns(record, values)
+    signs = [sign.signs(screws) for sign in mode_signs(record, problem)]
+    return np.array(signs, dtype=int).reshape(len(signs), len(values)).T
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize(
+    ("name", "walks", "steps"),
+    [
+        *((name, 16, 40) for name in QUICK),
+        *(pytest.param(name, 50, 500, marks=pytest.mark.deep) for name in [*QUICK, *DEEP]),
+    ],
+)
+def test_a_name_changes_at_singularities_alone(name, problem, walks, steps):
+    """Judged by the singular values of the whole closure, not by the blocks' own determinants."""
+    record = load_record(name)
+    shares = changes(record, problem, lambda values: signs_of(record, problem, values), walks, steps)
+    assert np.max(shares, initial=0.0) < CROSSED
+
+
+def test_a_fixed_minor_of_the_closure_changes_at_regular_configurations():
+    """So the walks would notice a name that is not kept: the minor is one of full rank at home."""
+    record = load_record("tsai_platform")
+    passive = [k for k in range(len(record.coordinates)) if k not in record.input_indices]
+    at_home = closure_jacobian(record, home_values(record))[:, passive]
+    rows: list[int] = []
+    for row in range(len(at_home)):
+        if np.linalg.matrix_rank(at_home[[*rows, row]], tol=1e-6) > len(rows):
+            rows.append(row)
+
+    def minor(values):
+        return np.sign(np.linalg.det(closure_jacobian(record, values)[:, rows][:, :, passive]))[:, None]
+
+    assert np.max(changes(record, "direct", minor, 24, 100), initial=0.0) > 3 * CROSSED
+
+
+@pytest.mark.parametrize(
+    ("name", "problem", "given", "modes"),
+    [
+        ("fivebar", "inverse", [10.0, 220.0], 4),
+        ("fivebar", "direct", [2.2, 0.9], 2),
+        ("zeng2019", "inverse", [-15.4714, 9.6849, 456.3315], 8),
+        ("zeng2019", "direct", [162.6907, -143.3209, -24.6776], 4),
+        ("tsai_platform", "inverse", [0.0, 0.0, 240.0], 8),
+        ("planar_3rrr", "inverse", [0.1, 0.05, 0.05], 8),
+        ("three_rps", "inverse", [800.0, 0.1, 0.05], 2),
+        ("orthoglide", "inverse", [10.0, 5.0, -20.0], 8),
+    ],
+)
+def test_they_tell_the_solutions_apart_as_the_closed_form_does(name, problem, given, modes):
+    """As many names as solutions, and as many solutions as the closed form has there."""
+    record = load_record(name)
+    found = (direct if problem == "direct" else inverse)(record, given)
+    signs = signs_of(record, problem, found.joints[found.exists])
+    assert len(np.unique(signs, axis=0)) == len(signs) == modes
+
+
+def test_solutions_of_one_sign_get_letters():
+    """A cusp: between the assemblies of a 3-RPR of one sign lies no singularity on some way."""
+    record = load_record("planar_3rpr")
+    found = direct(record, [300.0, 300.0, 300.0])
+    texts = mode_texts(signs_of(record, "direct", found.joints[found.exists]).astype(np.int8))
+    assert sorted(lettered(texts, np.ones(len(texts), dtype=bool))) == ["+a", "+b", "-a", "-b"]
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.deep) for name in DEEP)])
+def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
+    record = load_record(name)
+    home = home_values(record)
+    assert np.all(signs_of(record, problem, home[None]) == 1)
+    known = factors(record, problem)
+    answer = _Solutions.of(record, problem, home, known)
+    columns = [[known.index(factor) for factor in sign.factors] for sign in mode_signs(record, problem)]
+    names = np.array([np.prod(answer.signs[:, chosen], axis=1) for chosen in columns]).reshape(len(columns), -1).T
+    for number in np.unique(answer.solution):
+        assert len(np.unique(names[answer.solution == number], axis=0)) == 1

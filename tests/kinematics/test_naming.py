@@ -1,0 +1,64 @@
+"""Modes bear the file's names where it has them, else those of closing blocks."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from assur.errors import UnknownNameError
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import is_of_mode, lettered, without_letter
+from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import mode_names, sign_meanings, signs_at
+from assur.kinematics.position import direct, inverse
+from assur.model.mechanism import Modes
+from assur.model.registry import load_record
+
+
+@pytest.fixture(scope="module")
+def nameless():
+    record = load_record("planar_3rrr")
+    return dataclasses.replace(record, closed_form=None, modes=Modes())
+
+
+def test_a_files_names_override(nameless):
+    record = load_record("planar_3rrr")
+    home = home_values(record)[None]
+    assert np.array_equal(signs_at(record, "inverse", home), named_signs(record, "inverse", home))
+    assert list(sign_meanings(record, "inverse")) == list(record.modes.working)
+    assert list(sign_meanings(nameless, "inverse")) == ["leg1", "leg2", "leg3"]
+
+
+def test_names_of_closing_blocks_agree_with_those_that_were_written_but_for_the_sign_at_home(nameless):
+    """The elbows of three limbs: written as quantities of the file, and found in the joint graph."""
+    record = load_record("planar_3rrr")
+    solutions = inverse(nameless, [0.1, 0.05, 0.05])
+    joints = solutions.joints[solutions.exists]
+    written = named_signs(record, "inverse", joints) * named_signs(record, "inverse", home_values(record))
+    assert np.array_equal(signs_at(nameless, "inverse", joints), written)
+
+
+def test_home_is_plus(nameless):
+    assert mode_names(nameless, home_values(nameless)) == ("+++", "+")
+
+
+def test_a_mode_can_be_asked_by_its_name_and_a_number_names_none(nameless):
+    every = inverse(nameless, [0.1, 0.05, 0.05])
+    one = inverse(nameless, [0.1, 0.05, 0.05], "+-+")
+    assert [solution.mode for solution in one] == ["+-+"]
+    assert {"+-+"} < {str(label) for label in every.labels[every.exists]}
+    with pytest.raises(UnknownNameError) as told:
+        inverse(nameless, [0.1, 0.05, 0.05], "3")
+    assert "one sign + or - for each of: leg1, leg2, leg3" in told.value.hint
+
+
+def test_a_mode_without_letter_means_all_that_share_its_signs(nameless):
+    found = direct(load_record("planar_3rpr"), [300.0, 300.0, 300.0], "+")
+    assert [solution.mode for solution in found] == ["+a", "+b"]
+
+
+def test_letters_go_on_after_z():
+    labels = lettered(np.array(["+"] * 30), np.ones(30, dtype=bool))
+    assert list(labels[[0, 25, 26, 29]]) == ["+a", "+z", "+aa", "+ad"]
+    assert without_letter("+ad~Pa1") == "+~Pa1"
+    assert is_of_mode(labels, "+").all()
