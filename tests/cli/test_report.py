@@ -27,7 +27,7 @@ def test_one_file_that_needs_nothing_else(assur_cli, tmp_path):
     ],
 )
 def test_a_path_that_cannot_be_written_is_refused_before_the_work(assur_cli, tmp_path, monkeypatch, name, reason):
-    monkeypatch.setattr("assur.report.write_report", lambda *_: pytest.fail("the work has begun"))
+    monkeypatch.setattr("assur.report.report.write_report", lambda *_: pytest.fail("the work has begun"))
     run = assur_cli("report", "zeng2019", "-o", str(tmp_path / name))
     assert (run.code, run.out) == (2, "")
     assert run.err == f"error: cannot write {tmp_path / name}: {reason.format(folder=tmp_path)}\n"

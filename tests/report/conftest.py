@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 
 import assur
-from assur.report import report_html
 from assur.report.findings import Findings
 from assur.report.render import page_html
-from assur.report.report import report_page
+from assur.report.report import report_html, report_page
 from assur.results.kinds import RIGHTS, Scalar, Section, Table
 
 RESOLUTION = 20

@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 import assur
 from assur import figures
 from assur.errors import OutputError
-from assur.report import numbers_of, report_html, write_report
 from assur.report.findings import Findings
 from assur.report.render import page_html
-from assur.report.report import SECTIONS, report_page
+from assur.report.report import SECTIONS, numbers_of, report_html, report_page, write_report
 from assur.report.sections.reach import AGAINST
 from assur.results.kinds import Scalar, Section, Table
 from assur.workspace.certified.proving import prove_box

@@ -8,10 +8,9 @@ import pytest
 
 import assur
 from assur.kinematics.border import inputs_of
-from assur.report import numbers_of, report_html
 from assur.report.findings import Findings
 from assur.report.render import page_html
-from assur.report.report import SECTIONS, report_page
+from assur.report.report import SECTIONS, numbers_of, report_html, report_page
 from assur.report.sections.reach import AGAINST, reach
 from catalogue import each
 

@@ -37,8 +37,8 @@ def report(
     from assur.cli.output import heading
     from assur.cli.paths import output_file
     from assur.cli.progress import progress, stages
-    from assur.report import numbers_of, write_report
     from assur.report.render import Page
+    from assur.report.report import numbers_of, write_report
     from assur.results.answers.files import WrittenReport
 
     path = output_file(output, ENDINGS)
