@@ -1,15 +1,19 @@
 """What a + means is true at home, in the letters of the joints."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.joint_graph.frames import frames
 from assur.joint_graph.points import point
+from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.home import home_values
-from assur.kinematics.naming import sign_meanings
+from assur.kinematics.naming import sign_meanings, signs_at
 from assur.mechanism import load
+from assur.model.mechanism import Modes
 from assur.model.registry import load_record
 
 
@@ -50,3 +54,37 @@ def test_answers_print_what_a_plus_means(drafted, capsys):
     name, meaning = next(iter(sign_meanings(drafted, "direct").items()))
     assert f"mode: the signs of {name}" in said
     assert f"{name} is +: {meaning}" in said
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+def test_what_is_said_of_dyads_holds_of_every_assembly_by_its_sign(drafted, problem):
+    """The words are about places of joints, the signs about determinants of screws."""
+    nameless = dataclasses.replace(drafted, modes=Modes())
+    values = assemblies_by_chance(nameless)
+    signs = signs_at(nameless, problem, values)
+    meanings = list(sign_meanings(nameless, problem).values())
+    assert meanings
+    for meaning, own in zip(meanings, signs.T, strict=True):
+        words = meaning.split(" ")
+        if " along " in meaning:
+            middle, first, slide = words[0], words[-3], words[-1]
+            along = frames(nameless, values)[nameless.joints[slide].parent][0] @ nameless.joints[slide].axes[0]
+            across = point(nameless, middle, values) - point(nameless, first, values)
+            side = np.einsum("ni,ni->n", across, np.broadcast_to(along, across.shape))
+            positive = "ahead of" in meaning
+        else:
+            middle, first, last = words[0], words[-3], words[-1]
+            a, b, c = (point(nameless, name, values) for name in (first, middle, last))
+            axis = frames(nameless, values)[nameless.joints[first].parent][0] @ nameless.joints[first].axes[0]
+            side = np.einsum("ni,ni->n", np.cross(c - a, b - a), np.broadcast_to(axis, a.shape))
+            positive = " left " in meaning
+        clear = np.abs(side) > 1e-3
+        assert np.array_equal(own[clear] > 0, (side > 0)[clear] == positive)
+
+
+def test_a_draft_says_what_the_signs_mean_that_it_does_not_name(drafted):
+    text = Path(drafted.file).read_text(encoding="utf-8")
+    for problem, name in (("inverse", "working mode"), ("direct", "assembly mode")):
+        if not (drafted.modes.working if problem == "inverse" else drafted.modes.assembly):
+            for sign, meaning in sign_meanings(drafted, problem).items():
+                assert f"#     {name}, {sign}: {meaning}" in text

@@ -1,4 +1,7 @@
-"""Signs of modes, kept in the user's cache: plain data, by the mechanism's file, its dimensions and assur's version."""
+"""Signs of modes, kept in the user's cache: plain data, by the mechanism's file, its dimensions and assur's version.
+
+Whole lines of comments do not count: they may say what was found.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +52,8 @@ def kept_mode_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign
 
 
 def _name(record: MechanismRecord, problem: Problem) -> str:
-    text = record.description.text if record.description else ""
+    lines = record.description.text.splitlines() if record.description else []
+    text = "\n".join(line for line in lines if line.strip() and not line.startswith("#"))
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
     parts = (VERSION, _code(), problem, json.dumps(own), text)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"

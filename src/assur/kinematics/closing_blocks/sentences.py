@@ -60,24 +60,30 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
 
 
 def _dyad_side(screws: ScrewColumns, factor: BlockSign) -> str:
-    """On which side of the line through two parallel hinges the third lies; "" of any other block.
+    """How a loop of three hinges stands, or of two hinges and a slide across them; "" of any other block.
 
-    It is seen from where the axis of the first points to.
+    Left and right are seen from where the axis of the first hinge points to.
     """
-    names = factor.joints
-    record = screws.record
+    record, names = screws.record, factor.joints
     if len(factor.block.loops) != 1 or len(names) != 3 or PLATFORM in names:
         return ""
-    types = [record.joints[name].type for name in names]
-    if not all((own.turns, own.slides, own.ball) == (1, 0, False) for own in types):
+    types = {name: record.joints[name].type for name in names}
+    hinges = [name for name, own in types.items() if (own.turns, own.slides, own.ball) == (1, 0, False)]
+    slides = [name for name, own in types.items() if (own.turns, own.slides, own.ball) == (0, 1, False)]
+    axes = [screws.axis(name)[0] for name in hinges]
+    if len(hinges) < 2 or len(hinges) + len(slides) != 3:
         return ""
-    first, middle, last = (screws.centre(name)[0] for name in names)
-    axes = [screws.axis(name)[0] for name in names]
     if max(np.linalg.norm(np.cross(axes[0], axis)) for axis in axes) > PARALLEL:
         return ""
-    turn = float(np.cross(last - first, middle - first) @ axes[0])
-    where = "left" if turn > 0 else "right"
-    return f"{names[1]} lies on the {where} of the line from {names[0]} to {names[2]}"
+    places = [screws.centre(name)[0] for name in hinges]
+    if slides:
+        along = screws.axis(slides[0])[0]
+        if abs(along @ axes[0]) > PARALLEL:
+            return ""
+        ahead = float((places[1] - places[0]) @ along) > 0
+        return f"{hinges[1]} lies {'ahead of' if ahead else 'behind'} {hinges[0]} along {slides[0]}"
+    turn = float(np.cross(places[2] - places[0], places[1] - places[0]) @ axes[0])
+    return f"{hinges[1]} lies on the {'left' if turn > 0 else 'right'} of the line from {hinges[0]} to {hinges[2]}"
 
 
 def _text(name: str) -> str:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assur.errors import UsageError
+from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.naming import sign_meanings
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
@@ -22,6 +24,9 @@ CLEAR = 0.02
 
 GOOD = 0.3
 """A home that is so far from singular is taken at once."""
+
+PROBLEMS: dict[Problem, str] = {"inverse": "working mode", "direct": "assembly mode"}
+"""Problem -> whose modes are branches of it."""
 
 
 @dataclass(frozen=True)
@@ -77,22 +82,35 @@ def drafted(
                 continue
             if made.clearance >= GOOD and _lengths(made) == min(len(inputs), topology.poc.t):
                 if asked.agrees(made, reasons):
-                    return Drafted(made.text, topology)
+                    return Drafted(_with_names(made), topology)
                 continue
             sound.append(made)
         for made in _best_first(sound):
             if made.clearance >= CLEAR and asked.agrees(made, reasons):
-                return Drafted(made.text, topology)
+                return Drafted(_with_names(made), topology)
         singular += [made for made in sound if made.clearance < CLEAR]
     for made in _best_first(singular):
         if asked.agrees(made, reasons):
             note = "home is singular, or nearly so, in every layout that was tried: change the places of joints"
-            return Drafted(made.text, topology, (note,))
+            return Drafted(_with_names(made), topology, (note,))
     listed = "; ".join(list(reasons)[:3])
     raise UsageError(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
         hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
     )
+
+
+def _with_names(made: Attempt) -> str:
+    """The text, with what the + of each sign means that the joint graph gives to modes, as comments at its end."""
+    if made.record is None:
+        return made.text
+    lines = []
+    for problem, name in PROBLEMS.items():
+        if not sign_names(made.record, problem):
+            meanings = sign_meanings(made.record, problem)
+            lines += [f"#     {name}, {sign}: {meaning}" for sign, meaning in meanings.items()]
+    head = "# Modes that are not named above bear the signs of the joint graph. + is as drawn:"
+    return "\n".join([made.text.rstrip(), "", head, *lines, ""]) if lines else made.text
 
 
 def _best_first(made: Sequence[Attempt]) -> list[Attempt]:
