@@ -61,7 +61,7 @@ def test_the_answer_with_most_columns_prints_the_numbers_of_its_json(assur_cli, 
     solutions = assur_cli(*words, "--json").json["solutions"]
     monkeypatch.setenv("COLUMNS", str(width))
     out = assur_cli(*words).out
-    shown = [line.split() for line in out.splitlines() if re.match(r" +\d", line)]
+    shown = [line.split() for line in out.splitlines() if re.match(r" *[+-][a-z]* +-?\d", line)]
     assert [[float(word) for word in row[1:8]] for row in shown] == [
         pytest.approx(item["pose"], abs=6e-7) for item in solutions
     ]

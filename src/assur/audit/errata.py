@@ -48,8 +48,13 @@ def errata(record: MechanismRecord) -> tuple[Erratum, ...]:
     Errors:
         MechanismFileError: a file has faults, or an erratum names evidence that is not there.
     """
+    return tuple(erratum(record, name) for name in _entries(reference_folder(record) / ERRATA))
+
+
+def erratum(record: MechanismRecord, name: str) -> Erratum:
+    """One of them, by its id."""
     path = reference_folder(record) / ERRATA
-    return tuple(_erratum(record, name, entry, path) for name, entry in _entries(path).items())
+    return _erratum(record, name, _entries(path)[name], path)
 
 
 def _entries(path: Path) -> dict[str, ErratumEntry]:

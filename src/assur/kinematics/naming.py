@@ -22,8 +22,8 @@ def sign_meanings(record: MechanismRecord, problem: Problem) -> Mapping[str, str
     >>> from assur.model.registry import load_record
     >>> list(sign_meanings(load_record("fivebar"), "inverse").items())
     [('s1', 'sin(B1) > 0'), ('s2', 'sin(B2) > 0')]
-    >>> print(sign_meanings(load_record("planar_3rpr"), "direct")["platform"])
-    A1, A2, A3, B1, B2, B3: on home's side of where they move with what is given held
+    >>> print(sign_meanings(load_record("gough_stewart"), "inverse")["leg1"])
+    B1 lies ahead of A1 along P1
     """
     if sign_names(record, problem):
         written = record.modes.assembly if problem == "direct" else record.modes.working
