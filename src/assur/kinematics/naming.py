@@ -28,11 +28,11 @@ def sign_meanings(record: MechanismRecord, problem: Problem) -> Mapping[str, str
     if sign_names(record, problem):
         written = record.modes.assembly if problem == "direct" else record.modes.working
         return {name: f"{formula.text} > 0" for name, formula in written.items()}
-    from assur.kinematics.closing_blocks.kept import kept_mode_signs  # which names in a file do without
+    from assur.kinematics.closing_blocks.kept import kept_signs  # which names in a file do without
     from assur.kinematics.closing_blocks.sentences import sentence, sign_name
 
     meanings: dict[str, str] = {}
-    for sign in kept_mode_signs(record, problem):
+    for sign in kept_signs(record, problem):
         meanings[sign_name(record, sign, {*meanings})] = sentence(record, sign)
     return meanings
 
@@ -45,10 +45,10 @@ def signs_at(record: MechanismRecord, problem: Problem, joints: FloatArray, zero
     if sign_names(record, problem):
         return named_signs(record, problem, joints, zero)
     from assur.kinematics.closing_blocks.columns import ScrewColumns  # which names in a file do without
-    from assur.kinematics.closing_blocks.kept import kept_mode_signs
+    from assur.kinematics.closing_blocks.kept import kept_signs
 
     screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])))
-    signs = [sign.signs(screws) for sign in kept_mode_signs(record, problem)] if len(screws.values) else []
+    signs = [sign.signs(screws) for sign in kept_signs(record, problem)] if len(screws.values) else []
     columns = np.array(signs, dtype=np.int8).reshape(len(sign_meanings(record, problem)), len(screws.values)).T
     return columns.reshape(*joints.shape[:-1], columns.shape[-1])
 

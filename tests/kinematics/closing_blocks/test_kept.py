@@ -6,16 +6,16 @@ import pytest
 from assur.cache import cache_folder
 from assur.kinematics.closing_blocks import kept
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
-from assur.kinematics.closing_blocks.mode_signs import mode_signs
+from assur.kinematics.closing_blocks.distinguishing import distinguishing_signs
 from assur.model.registry import load_record
 
 
 @pytest.fixture
 def record(tmp_path, monkeypatch):
     monkeypatch.setenv("ASSUR_CACHE", str(tmp_path))
-    kept.kept_mode_signs.cache_clear()
+    kept.kept_signs.cache_clear()
     yield load_record("gough_stewart")
-    kept.kept_mode_signs.cache_clear()
+    kept.kept_signs.cache_clear()
 
 
 def signs(record, listed):
@@ -25,17 +25,17 @@ def signs(record, listed):
 
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
 def test_what_is_kept_is_what_was_found(record, problem, monkeypatch):
-    expected = signs(record, mode_signs(record, problem))
-    assert np.array_equal(signs(record, kept.kept_mode_signs(record, problem)), expected)
-    kept.kept_mode_signs.cache_clear()
-    monkeypatch.setattr(kept, "mode_signs", lambda *_: pytest.fail("found again"))
-    assert np.array_equal(signs(record, kept.kept_mode_signs(record, problem)), expected)
+    expected = signs(record, distinguishing_signs(record, problem))
+    assert np.array_equal(signs(record, kept.kept_signs(record, problem)), expected)
+    kept.kept_signs.cache_clear()
+    monkeypatch.setattr(kept, "distinguishing_signs", lambda *_: pytest.fail("found again"))
+    assert np.array_equal(signs(record, kept.kept_signs(record, problem)), expected)
 
 
 @pytest.mark.parametrize("damage", [lambda data: data[:-2], lambda data: data.replace(b"1", b"2"), lambda _: b""])
 def test_what_is_damaged_is_found_again(record, damage):
-    expected = signs(record, kept.kept_mode_signs(record, "inverse"))
+    expected = signs(record, kept.kept_signs(record, "inverse"))
     (path,) = (cache_folder() / kept.KIND).iterdir()
     path.write_bytes(damage(path.read_bytes()))
-    kept.kept_mode_signs.cache_clear()
-    assert np.array_equal(signs(record, kept.kept_mode_signs(record, "inverse")), expected)
+    kept.kept_signs.cache_clear()
+    assert np.array_equal(signs(record, kept.kept_signs(record, "inverse")), expected)

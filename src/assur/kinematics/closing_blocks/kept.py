@@ -17,7 +17,7 @@ import numpy as np
 
 from assur.cache import keep, own_content
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
-from assur.kinematics.closing_blocks.mode_signs import ModeSign, mode_signs
+from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, StrokeSign
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
@@ -29,22 +29,22 @@ LARGEST = 10_000_000
 
 
 @lru_cache(maxsize=64)
-def kept_mode_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
-    """The signs that name the modes of a problem, as `mode_signs`, found once for each file.
+def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
+    """The signs that name the modes of a problem, as `distinguishing_signs`, found once for each file.
 
     >>> from assur.model.registry import load_record
-    >>> [sign.joints for sign in kept_mode_signs(load_record("planar_3rpr"), "direct")]
+    >>> [sign.joints for sign in kept_signs(load_record("planar_3rpr"), "direct")]
     [('A1', 'A2', 'A3', 'B1', 'B2', 'B3')]
     """
     if record.description is None:
-        return mode_signs(record, problem)
+        return distinguishing_signs(record, problem)
     name = _name(record, problem)
     content = own_content(KIND, name, LARGEST)
     digest, _, body = (content or b"").partition(b"\n")
     if body and digest.decode("ascii", "replace") == hashlib.sha256(body).hexdigest():
         with suppress(ValueError, TypeError, KeyError, RecursionError):
             return tuple(ModeSign(tuple(_factor(part) for part in sign)) for sign in json.loads(body))
-    signs = mode_signs(record, problem)
+    signs = distinguishing_signs(record, problem)
     body = json.dumps([[_data(factor) for factor in sign.factors] for sign in signs]).encode()
     with suppress(OSError):
         keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)

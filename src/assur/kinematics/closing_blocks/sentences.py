@@ -6,7 +6,7 @@ import numpy as np
 
 from assur.kinematics.closing_blocks.blocks import PLATFORM
 from assur.kinematics.closing_blocks.columns import ScrewColumns
-from assur.kinematics.closing_blocks.mode_signs import ModeSign
+from assur.kinematics.closing_blocks.distinguishing import ModeSign
 from assur.kinematics.closing_blocks.signs import BlockSign, StrokeSign
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
@@ -18,10 +18,10 @@ PARALLEL = 1e-9
 def sign_name(record: MechanismRecord, sign: ModeSign, taken: set[str]) -> str:
     """A short name that is not taken yet: of the limb that has all its joints, of the platform for most joints.
 
-    >>> from assur.kinematics.closing_blocks.mode_signs import mode_signs
+    >>> from assur.kinematics.closing_blocks.distinguishing import distinguishing_signs
     >>> from assur.model.registry import load_record
     >>> record = load_record("planar_3rrr")
-    >>> [sign_name(record, sign, set()) for sign in mode_signs(record, "inverse")]
+    >>> [sign_name(record, sign, set()) for sign in distinguishing_signs(record, "inverse")]
     ['leg1', 'leg2', 'leg3']
     """
     joints = [name for name in sign.joints if name != PLATFORM]
@@ -40,10 +40,10 @@ def sign_name(record: MechanismRecord, sign: ModeSign, taken: set[str]) -> str:
 def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     """What holds where a sign is +, as it does at home.
 
-    >>> from assur.kinematics.closing_blocks.mode_signs import mode_signs
+    >>> from assur.kinematics.closing_blocks.distinguishing import distinguishing_signs
     >>> from assur.model.registry import load_record
     >>> record = load_record("planar_3rrr")
-    >>> print(sentence(record, mode_signs(record, "inverse")[0]))
+    >>> print(sentence(record, distinguishing_signs(record, "inverse")[0]))
     leg1.B lies on the right of the line from leg1.A to leg1.C
     """
     screws = ScrewColumns(record, home_values(record)[None])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from assur.kinematics.closing_blocks.columns import ScrewColumns
-from assur.kinematics.closing_blocks.mode_signs import _Solutions, mode_signs
+from assur.kinematics.closing_blocks.distinguishing import _Solutions, distinguishing_signs
 from assur.kinematics.closing_blocks.signs import factors
 from assur.kinematics.closure import closure_jacobian
 from assur.kinematics.home import home_values
@@ -25,7 +25,7 @@ DEEP = [
 
 def signs_of(record, problem, values):
     screws = ScrewColumns(record, values)
-    signs = [sign.signs(screws) for sign in mode_signs(record, problem)]
+    signs = [sign.signs(screws) for sign in distinguishing_signs(record, problem)]
     return np.array(signs, dtype=int).reshape(len(signs), len(values)).T
 
 
@@ -97,7 +97,7 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
     assert np.all(signs_of(record, problem, home[None]) == 1)
     known = factors(record, problem)
     answer = _Solutions.of(record, problem, home, known)
-    columns = [[known.index(factor) for factor in sign.factors] for sign in mode_signs(record, problem)]
+    columns = [[known.index(factor) for factor in sign.factors] for sign in distinguishing_signs(record, problem)]
     names = np.array([np.prod(answer.signs[:, chosen], axis=1) for chosen in columns]).reshape(len(columns), -1).T
     for number in np.unique(answer.solution):
         assert len(np.unique(names[answer.solution == number], axis=0)) == 1

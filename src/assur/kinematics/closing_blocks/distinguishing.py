@@ -54,11 +54,11 @@ class ModeSign:
 
 
 @lru_cache(maxsize=64)
-def mode_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
+def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
     """The signs that name the modes of a problem; home reads + in each.
 
     >>> from assur.model.registry import load_record
-    >>> [sign.joints for sign in mode_signs(load_record("fivebar"), "direct")]
+    >>> [sign.joints for sign in distinguishing_signs(load_record("fivebar"), "direct")]
     [('B1', 'B2', 'P')]
     """
     known = factors(record, problem)
