@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import warnings
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 
 from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM
@@ -17,8 +19,11 @@ from assur.model.kernels.scope import KernelScope, assigned_names, checked_name,
 from assur.model.kernels.statements import function, statement
 
 
+@lru_cache(maxsize=64)
 def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
     r"""The names that a file of kernels defines; its functions can be called like any others.
+
+    A text is read once in a process, and what its functions have learned by being called serves every reader.
 
     Args:
         text: what stands in the file.
@@ -57,7 +62,7 @@ def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
         raise
     except KernelFault as fault:
         raise problem_of(file, fault) from fault
-    return shared
+    return MappingProxyType(shared)
 
 
 def _tree(text: str, file: Path) -> ast.Module:
