@@ -9,6 +9,7 @@ from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.rates.motions import general, motions
 from assur.kinematics.turns import in_one_turn
 
+HALVES = 16
 STEP = 0.02
 """Of a walk, in rad and characteristic lengths over all joints together."""
 
@@ -22,7 +23,7 @@ def distances(record, problem, values):
 
 
 def changes(record, problem, signs, walks, steps, seed=0):
-    """Where a sign changed: how far (K,) from a singularity, as a share of what is usual, at the nearer of both ends.
+    """Where a sign changed: how far (K,) from a singularity, as a share of what is usual.
 
     `signs` are (N, s) of joint values (N, n). The walks begin at home and at assemblies by chance.
     """
@@ -33,16 +34,31 @@ def changes(record, problem, signs, walks, steps, seed=0):
     values[: walks // 4] = known[0]
     along = rng.normal(size=values.shape)
     shares = []
-    before, far = signs(values), distances(record, problem, values)
+    before = signs(values)
     for _ in range(steps):
         motion = motions(record, values, RANK_GAP)
         along = np.einsum("nij,nkj,nk->ni", motion.null, motion.null, along + 0.15 * rng.normal(size=values.shape))
         along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
         closed = assemble(record, values + STEP * along * motion.scale)
         near = np.max(np.abs(closed.values - values) / motion.scale, axis=1) < 3 * STEP
-        values = np.where((closed.closed & near)[:, None], in_one_turn(record, closed.values), values)
-        now, away = signs(values), distances(record, problem, values)
-        changed = np.any(now * before < 0, axis=1)
-        shares += (np.minimum(away, far)[changed] / usual).tolist()
-        before, far = now, away
+        after = np.where((closed.closed & near)[:, None], closed.values, values)
+        now = signs(after)
+        changed = np.flatnonzero(np.any(now * before < 0, axis=1))
+        shares += [_nearest(record, problem, signs, values[k], after[k]) / usual for k in changed]
+        values, before = in_one_turn(record, after), now
     return np.array(shares)
+
+
+def _nearest(record, problem, signs, first, second):
+    """How far from a singularity a sign changes between two assemblies (n,): by halves, some 1e-5 of the step."""
+    begun = signs(first[None])
+    for _ in range(HALVES):
+        closed = assemble(record, 0.5 * (first + second)[None])
+        if not closed.closed[0]:
+            break
+        middle = closed.values[0]
+        if np.any(signs(middle[None]) * begun < 0):
+            second = middle
+        else:
+            first = middle
+    return float(np.min(distances(record, problem, np.stack([first, second]))))

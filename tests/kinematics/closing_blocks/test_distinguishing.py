@@ -13,8 +13,9 @@ from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
 from regular_walks import changes
 
-CROSSED = 0.1
-"""Share of the usual distance from a singularity within which a step of a walk ends that has crossed one."""
+CROSSED = 0.01
+"""Share of the usual distance from a singularity at which a sign changes that changes there: the place is known to
+some 1e-5 of a step, and the smallest singular value may fall steeply."""
 
 QUICK = ["fivebar", "zeng2019", "tsai_platform", "planar_3rpr"]
 DEEP = [
@@ -34,7 +35,7 @@ def signs_of(record, problem, values):
     ("name", "walks", "steps"),
     [
         *((name, 16, 40) for name in QUICK),
-        *(pytest.param(name, 50, 500, marks=pytest.mark.deep) for name in [*QUICK, *DEEP]),
+        *(pytest.param(name, 50, 200, marks=pytest.mark.deep) for name in [*QUICK, *DEEP]),
     ],
 )
 def test_a_name_changes_at_singularities_alone(name, problem, walks, steps):
@@ -57,7 +58,7 @@ def test_a_fixed_minor_of_the_closure_changes_at_regular_configurations():
     def minor(values):
         return np.sign(np.linalg.det(closure_jacobian(record, values)[:, rows][:, :, passive]))[:, None]
 
-    assert np.max(changes(record, "direct", minor, 24, 100), initial=0.0) > 3 * CROSSED
+    assert np.max(changes(record, "direct", minor, 24, 100), initial=0.0) > 30 * CROSSED
 
 
 @pytest.mark.parametrize(
@@ -98,6 +99,10 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
     known = factors(record, problem)
     answer = _Solutions.of(record, problem, home, known)
     columns = [[known.index(factor) for factor in sign.factors] for sign in distinguishing_signs(record, problem)]
-    names = np.array([np.prod(answer.signs[:, chosen], axis=1) for chosen in columns]).reshape(len(columns), -1).T
+    names = (
+        np.array([np.prod(answer.signs[:, chosen], axis=1) for chosen in columns])
+        .reshape(len(columns), len(answer.signs))
+        .T
+    )
     for number in np.unique(answer.solution):
         assert len(np.unique(names[answer.solution == number], axis=0)) == 1

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closing_blocks.blocks import (
     SMALL,
+    SPINNING,
     ClosingBlock,
     ClosingGroup,
     closing_groups,
@@ -159,6 +160,9 @@ def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
     """
     for block in loop_blocks(screws.record):
         own = _span(screws.motions[:, list(block.columns)])
+        matrices = block.derivative(screws, [screws.record.base] * len(block.loops))
+        if np.max(np.abs(matrices @ own)) > SPINNING:  # what is a motion here is none there
+            continue
         across = np.linalg.svd(own)[0][:, own.shape[1] :]
         sign = _sign(block, screws, across)
         if sign is not None:
