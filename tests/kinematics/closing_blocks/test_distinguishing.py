@@ -68,7 +68,6 @@ def test_a_fixed_minor_of_the_closure_changes_at_regular_configurations():
         ("fivebar", "direct", [2.2, 0.9], 2),
         ("zeng2019", "inverse", [-15.4714, 9.6849, 456.3315], 8),
         ("zeng2019", "direct", [162.6907, -143.3209, -24.6776], 4),
-        ("tsai_platform", "inverse", [0.0, 0.0, 240.0], 8),
         ("planar_3rrr", "inverse", [0.1, 0.05, 0.05], 8),
         ("three_rps", "inverse", [800.0, 0.1, 0.05], 2),
         ("orthoglide", "inverse", [10.0, 5.0, -20.0], 8),

@@ -11,7 +11,7 @@ So the signs of smaller parts split that of a larger one into factors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, product
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closing_blocks.blocks import (
+    LOOKED_AT,
     SMALL,
     SPINNING,
     ClosingBlock,
@@ -156,9 +157,13 @@ def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
 def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
     """Signs of single loops that move in one way at all configurations, as parallelograms: where one is flat it is 0.
 
-    What they do besides in no motion has a determinant, that vanishes where the loop loses rank.
+    What they do besides in no motion has a determinant, that vanishes where the loop loses rank. Then so does the whole
+    closure, if the loop's equations do not depend on those of the others: of an overconstrained mechanism they may.
     """
-    for block in loop_blocks(screws.record):
+    blocks = loop_blocks(screws.record)
+    for number, block in enumerate(blocks):
+        if not _independent(blocks, number, screws):
+            continue
         own = _span(screws.motions[:, list(block.columns)])
         matrices = block.derivative(screws, [screws.record.base] * len(block.loops))
         if np.max(np.abs(matrices @ own)) > SPINNING:  # what is a motion here is none there
@@ -167,6 +172,18 @@ def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
         sign = _sign(block, screws, across)
         if sign is not None:
             yield sign
+
+
+def _independent(blocks: Sequence[ClosingBlock], number: int, screws: ScrewColumns) -> bool:
+    """Whether the equations of a loop are independent of those of all others, at some assembly."""
+    count = len(screws.record.coordinates)
+    senses = [[block.loops[0].get(item.joint, 0) for item in screws.record.coordinates] for block in blocks]
+    rows = [screws.in_base[:LOOKED_AT, :, :count] * own for own in senses]
+    ranks = [
+        np.max(np.linalg.matrix_rank(np.concatenate(part, axis=1), tol=SMALL)) if part else 0
+        for part in (rows, rows[:number] + rows[number + 1 :], rows[number : number + 1])
+    ]
+    return bool(ranks[0] == ranks[1] + ranks[2])
 
 
 def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns) -> Iterator[BlockSign]:
