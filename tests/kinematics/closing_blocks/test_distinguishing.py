@@ -105,3 +105,12 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
     )
     for number in np.unique(answer.solution):
         assert len(np.unique(names[answer.solution == number], axis=0)) == 1
+
+
+def test_where_no_solution_is_regular_nothing_differs():
+    """Some factor may vanish at every solution that is met; the answer then has no names, but is one."""
+    nothing = _Solutions(np.zeros(0, dtype=int), np.zeros((0, 3), dtype=np.int8))
+    assert nothing.alike.shape == (0, 3)
+    signs = np.array([[1, 1], [1, -1], [1, 1], [-1, 1]], dtype=np.int8)
+    alike = _Solutions(np.array([0, 0, 1, 1]), signs).alike
+    assert sorted(alike.tolist()) == [[False, False], [False, True], [True, False]]

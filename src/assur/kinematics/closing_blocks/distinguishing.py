@@ -97,8 +97,9 @@ class _Solutions:
     @property
     def alike(self) -> NDArray[np.bool_]:
         """Which signs (P, s) differ between assemblies that look alike."""
-        rows = [self.signs[self.solution == number] for number in np.unique(self.solution)]
-        return np.unique(np.concatenate([own != own[:1] for own in rows]), axis=0)
+        first = np.unique(self.solution, return_index=True)[1]
+        same = np.searchsorted(self.solution[first], self.solution)
+        return np.unique(self.signs != self.signs[first][same], axis=0)
 
 
 def _targets(record: MechanismRecord) -> FloatArray:
