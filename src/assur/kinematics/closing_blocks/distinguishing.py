@@ -63,7 +63,7 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     """
     known = factors(record, problem)
     answers = [_Solutions.of(record, problem, target, known) for target in _targets(record)]
-    combinations = _alike_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
     order = _separating(columns, [answer.solution for answer in answers])
     return tuple(ModeSign(tuple(known[k] for k in combinations[place])) for place in sorted(order))
@@ -120,7 +120,7 @@ def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> Fl
     return values[[not other for other in otherwise(record, values)]]
 
 
-def _alike_alike(differing: NDArray[np.bool_], count: int) -> list[list[int]]:
+def _joined_where_alike(differing: NDArray[np.bool_], count: int) -> list[list[int]]:
     """Sets of signs whose product is the same wherever assemblies look alike: as many as are independent.
 
     By elimination modulo 2: `differing` (P, s) are the signs that differ in a pair of such assemblies.

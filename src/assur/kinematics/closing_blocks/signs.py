@@ -53,7 +53,7 @@ class BlockSign:
     Attributes:
         block: the block.
         links: from which each of its loops is seen.
-        rates: (k, d) basis of the rates that its joints have in motions of the mechanism.
+        rates: (k, d) basis of the rates that count: all, those in motions of the mechanism, or those in none of them.
         basis: (6 L, r) of the space that its screws span there at such rates.
         size: of its largest determinant among assemblies by chance, negative where home would read minus.
     """
@@ -81,8 +81,7 @@ class BlockSign:
 
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where the block is singular."""
-        values = self.determinants(screws)
-        return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
+        return _with_zero(self.determinants(screws))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +114,12 @@ class StrokeSign:
 
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where the joints are in one place."""
-        values = self.strokes(screws)
-        return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
+        return _with_zero(self.strokes(screws))
+
+
+def _with_zero(values: FloatArray) -> SignArray:
+    """Signs (N,) of shares (N,); 0 where one has merged."""
+    return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
 
 
 Factor = BlockSign | StrokeSign
