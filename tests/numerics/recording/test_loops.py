@@ -44,16 +44,22 @@ def test_bits_are_those_of_numpy_for_any_length_and_number_of_threads(tape, loop
         np.testing.assert_array_equal(found[name], np.broadcast_to(np.asarray(value), count))
 
 
+def rows_from(start, count, length):
+    """Rows that begin so many numbers after a line of the caches."""
+    return empty_rows(1, count * length + start)[0, start:].reshape(count, length)
+
+
+@pytest.mark.parametrize("start", [0, 2, 7])
 @pytest.mark.parametrize("streaming", [True, False])
 @pytest.mark.parametrize(
     ("length", "shift", "part"),
     [(3001, 0, (0, 3001)), (3001, 3, (0, 2998)), (2997, 1, (5, 2000)), (3000, 8, (16, 2991)), (3000, 5, (3, 60))],
 )
-def test_parts_of_an_answer_and_nothing_beside_them(tape, loop, streaming, length, shift, part):
+def test_parts_of_an_answer_and_nothing_beside_them(tape, loop, streaming, start, length, shift, part):
     given = np.random.default_rng(1).normal(size=(2, 3001))
     names = ["share", "root", "root", "given"]
     rows = np.array([loop.places[name] for name in names]), np.array([loop.places["not"]])
-    numbers, truths = empty_rows(4, length), np.ones((1, length), dtype=bool)
+    numbers, truths = rows_from(start, 4, length), np.ones((1, length), dtype=bool)
     numbers.fill(np.pi)
     assert loop.fill(given, [0.7], (numbers, truths), rows, part, shift=shift, streaming=streaming) == 0
     wanted = tape.evaluate(given, [0.7])
@@ -75,6 +81,23 @@ def test_large_answers_are_streamed_with_the_same_bits(loop, monkeypatch, count)
     streamed = loop(given, [0.7])
     for name, values in ordinary.items():
         np.testing.assert_array_equal(values, streamed[name])
+
+
+@pytest.mark.parametrize("start", [0, 2, 7])
+def test_an_answer_is_streamed_from_its_first_line_wherever_it_begins(loop, monkeypatch, start):
+    given, parts = np.zeros((2, 3001)), []
+    code = loop._code
+
+    def noted(*arguments):
+        parts.append((arguments[-2][:2], arguments[-1]))
+        return code(*arguments)
+
+    monkeypatch.setitem(loop.__dict__, "_code", noted)
+    rows = np.array([loop.places["root"]]), np.zeros(0, dtype=np.intp)
+    answer = rows_from(start, 1, 3000), np.empty((0, 3000), dtype=bool)
+    loop.fill(given, [0.7], answer, rows, (1, 3000), streaming=True)
+    line = 1 + -(start + 1) % 8
+    assert parts == [part for part in (((1, line), False), ((line, 3000), True)) if part[0][0] < part[0][1]]
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

@@ -32,6 +32,8 @@ IntArray = NDArray[np.intp]
 
 LINE = 64
 """Bytes of a line of the caches."""
+IN_LINE = LINE // 8
+"""Numbers of a line."""
 STREAMED = 16 * 1024 * 1024
 """Bytes from which an answer is stored past the caches."""
 SHARE = 16384
@@ -109,19 +111,21 @@ class CompiledLoop:
             rows: for each row of the one, and of the other, the place of its output in a group (`places`).
             part: start and stop, of the elements of `given`.
             shift: where element 0 of `given` stands in the answer.
-            streaming: whether to store past the caches, if all rows begin at a line of these (`empty_rows`); where the
-                answer is large if not said.
+            streaming: whether to store past the caches, if rows are whole lines of these long; where the answer is
+                large if not said. What stands before the first line is stored as usual.
 
         Returns:
             0 where all given numbers are finite.
         """
         numbers, truths = answer
-        past = numbers.nbytes >= STREAMED if streaming is None else streaming
-        past = (
-            past and (numbers.ctypes.data + 8 * (part[0] + shift)) % LINE == 0 and numbers.shape[1] % (LINE // 8) == 0
-        )
+        lines = numbers.shape[1] % IN_LINE == 0  # else a line begins at another element of each row
+        past = lines and (numbers.nbytes >= STREAMED if streaming is None else streaming)
         flat = given.reshape(-1), given.shape[1], np.asarray(uniform, dtype=float), numbers.reshape(-1)
-        return int(self._code(*flat, truths.reshape(-1), numbers.shape[1], *rows, (*part, shift), past))
+        where = truths.reshape(-1), numbers.shape[1], *rows
+        start, stop = part
+        line = min(start + _to_line(numbers, start + shift), stop) if past else start
+        odd = int(self._code(*flat, *where, (start, line, shift), False)) if line > start else 0
+        return odd + int(self._code(*flat, *where, (line, stop, shift), past))
 
     @property
     def loaded(self) -> bool:
@@ -146,10 +150,14 @@ def compiled(tape: Tape) -> CompiledLoop:
 
 def empty_rows(rows: int, count: int) -> FloatArray:
     """Numbers (rows, count) that begin at a line of the caches, so that large answers can be stored past these."""
-    spare = LINE // 8
-    numbers = np.empty(rows * count + spare)
-    first = -numbers.ctypes.data % LINE // 8
+    numbers = np.empty(rows * count + IN_LINE)
+    first = _to_line(numbers, 0)
     return numbers[first : first + rows * count].reshape(rows, count)
+
+
+def _to_line(numbers: FloatArray, place: int) -> int:
+    """Numbers from a place of a contiguous array to the next line."""
+    return -(numbers.ctypes.data // 8 + place) % IN_LINE
 
 
 def _shares(count: int, threads: int) -> list[tuple[int, int]]:
