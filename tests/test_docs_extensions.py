@@ -100,7 +100,7 @@ def test_a_figure_is_drawn_once_until_a_source_changes(extension, tmp_path, monk
 def test_the_lines_of_a_figure_make_it(extension, tmp_path, monkeypatch):
     import assur
     from assur.cli.main import main
-    from assur.figures import write
+    from assur.figures.catalogue import write
 
     text = extension("gallery").markdown(tmp_path, "fivebar", "graph")
     command, python = (text.split(f"```{kind}\n")[1].split("\n```")[0] for kind in ("sh", "python"))

@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+from assur.cli.main import main
+
 CODE = """
 import sys
 before = set(sys.modules)
@@ -64,3 +66,10 @@ def test_a_file_is_checked_the_first_time(tmp_path):
     third_party, _ = loaded(tmp_path, DIRECT)
     assert third_party >= READ
     assert third_party - {"assur"} <= LINE | READ | NUMPY
+
+
+def test_a_file_without_labels_is_checked_without_what_draws(tmp_path):
+    file = str(tmp_path / "mine.toml")
+    assert main(["new", file, "--limb", "R[z] R[z] R[z]"]) == 0
+    third_party, _ = loaded(tmp_path, ("check", file))
+    assert third_party.isdisjoint({"matplotlib", "manifold3d", "networkx", "scipy"})

@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.workspace.region import workspace
 from catalogue import each
 

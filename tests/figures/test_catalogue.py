@@ -8,8 +8,8 @@ import matplotlib.pyplot as plt
 import pytest
 
 import assur
-from assur import figures
 from assur.errors import OutputError, UnknownNameError
+from assur.figures import catalogue as figures
 from assur.figures.catalogue import ENTRIES
 from assur.report.formulas.latex import latex_mathml
 from assur.workspace.region import workspace

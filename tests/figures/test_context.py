@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.kinematics.answers.at_border import inputs_at_border
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error

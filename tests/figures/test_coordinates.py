@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures.coordinates import angle_ticks, axis_title, drawn_span, held_words, plane_words, shown, value_words
 from assur.workspace.region import workspace
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.kinematics.rates.velocity import velocity_map
 from assur.workspace.fields import at_points
 

@@ -5,13 +5,13 @@ import sys
 
 import pytest
 
-from assur import figures
 from assur.errors import UnknownNameError
+from assur.figures import catalogue as figures
 
 SCRIPT = """
 import hashlib
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 figure = figures.draw(assur.load("fivebar"), "model")
 digests = [hashlib.sha256(figures.encoded(figure, form, 100)).hexdigest() for form in ("png", "pdf", "svg")]
 print(*digests)

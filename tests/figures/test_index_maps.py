@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import assur
-from assur import figures
 from assur.errors import UsageError
+from assur.figures import catalogue as figures
 from assur.figures.index_maps import INDEX_MAPS, drawn, whole
 from assur.figures.style import styled
 from assur.performance.indices import INDICES, Index

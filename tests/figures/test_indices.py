@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgba
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures import indices as module
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field
 from assur.figures.plane_map import continued

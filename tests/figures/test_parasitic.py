@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures.parasitic import PARASITIC, maps
 from assur.workspace.region import workspace
 

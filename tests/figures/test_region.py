@@ -3,7 +3,7 @@ import pytest
 from matplotlib.text import Text
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures.catalogue import ENTRIES
 from assur.figures.coordinates import axis_title, symbol
 from assur.kinematics.modes import all_modes

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures.meaning import named, typeset
 from assur.figures.singular import symbol_of
 from assur.joint_graph.points import point

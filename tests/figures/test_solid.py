@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import PathPatch
 
 import assur
-from assur import figures
+from assur.figures import catalogue as figures
 from assur.figures.letters import letter
 from assur.figures.model import lettered
 from assur.figures.solid import model_camera

@@ -10,8 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 
 import assur
-from assur import figures
 from assur.errors import OutputError
+from assur.figures import catalogue as figures
 from assur.report.findings import Findings
 from assur.report.render import page_html
 from assur.report.report import SECTIONS, numbers_of, report_html, report_page, write_report

@@ -37,7 +37,7 @@ def audit(ledger: Ledger, findings: Findings, shared: Plain) -> None:
 
 def figures(ledger: Ledger, findings: Findings, folder: Path, shared: Plain) -> list[Path]:
     """Every figure as a picture, for print and as data."""
-    from assur.figures import write
+    from assur.figures.catalogue import write
 
     ledger.section("Figures")
     with progress("figures", shared) as step:

@@ -20,8 +20,8 @@ from assur.results.plain_text import count
 
 def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequence[str], shared: Shared) -> Outcome:
     """The figures, written; those that the mechanism does not have with the reason."""
-    from assur.figures import Context, left_out, write
-    from assur.figures.catalogue import chosen_names
+    from assur.figures.catalogue import chosen_names, left_out, write
+    from assur.figures.context import Context
 
     context = Context(record)
     wanted = chosen_names(record, only, context)

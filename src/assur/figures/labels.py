@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from matplotlib.mathtext import MathTextParser
-
 from assur.figures.letters import mathematics, words
 
 LONGEST = 300
@@ -24,6 +22,8 @@ def is_settable(latex: str) -> bool:
     plain = latex.replace(r"\$", "")
     if not latex.strip() or len(latex) > LONGEST or "$" in plain or not latex.isprintable():
         return False
+    from matplotlib.mathtext import MathTextParser  # only a file that gives labels needs it
+
     try:
         MathTextParser("path").parse(f"${latex}$")
     except (ValueError, RecursionError):

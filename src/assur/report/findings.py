@@ -15,7 +15,7 @@ from assur.audit.reference import Reference
 from assur.audit.rows import Audit, Row
 from assur.audit.tables import PrintedTable
 from assur.errors import UsageError
-from assur.figures import Context
+from assur.figures.context import Context
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point

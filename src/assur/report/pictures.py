@@ -6,7 +6,9 @@ import io
 
 from PIL import Image
 
-from assur import figures
+from assur.figures import catalogue as figures
+from assur.figures.context import Context
+from assur.figures.encode import encoded
 from assur.results.kinds import Picture
 
 DOTS_PER_INCH = 240
@@ -16,14 +18,14 @@ ENLARGED = 1.25
 CSS_INCH = 96
 
 
-def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
+def pictures(context: Context, name: str) -> tuple[Picture, ...]:
     """The figure of that name, or none where the mechanism has none; the report numbers it."""
     if name not in figures.names(context.record, context):
         return ()
     spec = figures.spec(context.record, name, context)
     figure = figures.draw(context.record, name, context)
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
-    png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))
+    png = _with_palette(encoded(figure, "png", DOTS_PER_INCH))
     return (Picture(spec.name, "", spec.title, spec.caption, png, width, height),)
 
 

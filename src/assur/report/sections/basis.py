@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from assur.figures import left_out
+from assur.figures.catalogue import left_out
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import CLOSED, RANK_GAP
 from assur.kinematics.rates.units import is_mixed
