@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from assur.figures.letters import mathematics, words
+from assur.figures.letters import GREEK, mathematics, words
 
 LONGEST = 300
 """Characters of a label at most; nested deeper, the setting of type runs out of stack."""
 _KEPT = re.compile(r"[^A-Za-z0-9 .,'+-]")
+_LETTER = re.compile(rf"(?:[A-Za-z]|\\(?:{'|'.join(GREEK)}))(?:_(?:[A-Za-z0-9]|\{{[A-Za-z0-9,]+\}}))?")
+"""One letter with one index, which can always be set."""
 
 
 @lru_cache(maxsize=4096)
@@ -19,10 +21,12 @@ def is_settable(latex: str) -> bool:
     >>> is_settable(r"\theta_{1}"), is_settable(r"\theta_{1"), is_settable("a_b_c"), is_settable("a$ $b")
     (True, False, False, False)
     """
+    if _LETTER.fullmatch(latex):
+        return True
     plain = latex.replace(r"\$", "")
     if not latex.strip() or len(latex) > LONGEST or "$" in plain or not latex.isprintable():
         return False
-    from matplotlib.mathtext import MathTextParser  # only a file that gives labels needs it
+    from matplotlib.mathtext import MathTextParser  # slow to load, and few files need it
 
     try:
         MathTextParser("path").parse(f"${latex}$")
