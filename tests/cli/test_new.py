@@ -115,6 +115,11 @@ def test_what_is_driven_can_be_chosen(assur_cli, folder):
         (("my.toml",), "nothing to begin with"),
         (("my.toml", "--from", "fivebar", "--chain", "R[z]"), "--from and --chain"),
         (("my.toml", "--chain", "R[z]", "--limb", "R[z]"), "--chain and --limb"),
+        (("my.toml", "3-RPS", "--limb", "R[z]"), "a shorthand and --limb"),
+        (("my.toml", "3-RPS", "--from", "fivebar"), "a shorthand and --from"),
+        (("my.toml", "3-RPS", "--count", "3"), "--count goes with"),
+        (("my.toml", "3-RQS"), "at character 4"),
+        (("my.toml", "2U_P_R-SPR"), "too few"),
         (("my.toml", "--chain", "R[q]"), "R[q]"),
         (("my.toml", "--limb", "R[z] R[z] R[z]", "--count", "x"), "whole number"),
         (("my.toml", "--limb", "R[z] R[z] R[z]", "--count", "1"), "allowed: 2 to 60"),
@@ -161,6 +166,26 @@ def test_limbs_that_share_a_point_are_drafted_with_it_at_the_platform_s_origin(a
     facts = assur.topology("my.toml")
     assert [facts.poc.t, facts.poc.r, facts.poc.dim] == numbers
     assert facts.routes_agree is True
+
+
+def test_a_shorthand_is_echoed_in_full_and_the_full_form_drafts_the_same(assur_cli, folder):
+    run = assur_cli("new", "my.toml", "3-RPS")
+    assert (run.code, run.err) == (0, "")
+    assert '--limb "R[y] P[z] S" --count 3 --actuate 1.2,2.2,3.2' in " ".join(run.out.split())
+    text = Path("my.toml").read_text(encoding="utf-8")
+    full = ("--limb", "R[y] P[z] S", "--count", "3", "--actuate", "1.2,2.2,3.2")
+    assert assur_cli("new", "my.toml", *full, "--force").code == 0
+    assert Path("my.toml").read_text(encoding="utf-8") == text
+
+
+def test_of_several_arrangements_one_is_named(assur_cli, folder):
+    run = assur_cli("new", "my.toml", "3-RRR")
+    assert run.code == 2
+    assert "planar" in run.err
+    assert "spherical" in run.err
+    assert list(folder.iterdir()) == []
+    assert assur_cli("new", "my.toml", "3-RRR", "planar").code == 0
+    assert load_record("my.toml").platform.pose == ("x", "y", "phi")
 
 
 def test_axes_that_were_left_out_are_said_to_be_general(assur_cli, folder):

@@ -33,6 +33,12 @@ OTHERS = 3
 
 def new(
     file: Annotated[str, Parameter(name="FILE", help="The .toml file to write; its name is the mechanism's.")],
+    shorthand: Annotated[
+        str, Parameter(name="SHORTHAND", help="Draft a mechanism as papers name it: 3-RPS, 2UPR-RPU, Delta.")
+    ] = "",
+    arrangement: Annotated[
+        str, Parameter(name="ARRANGEMENT", help="How its axes lie, where the shorthand leaves several: planar.")
+    ] = "",
     /,
     *,
     from_: Annotated[
@@ -58,6 +64,11 @@ def new(
 ) -> Outcome:
     r"""Write a mechanism's file to begin with: a copy, or a draft of chains.
 
+    Shorthand means a standard arrangement of axes, which is printed in full;
+    where there are several, or none, they are listed. An underlined joint, or
+    one between low lines, is driven: 3-_R_PS. Pa is a parallelogram, Pa(4S) one
+    with ball joints.
+
     A draft needs no dimensions. Joints get default places, each a parameter;
     limbs that are turns of one another about z become one template. Axes with
     one label (R[x]@O) meet in one point, also those of different limbs; --limb
@@ -68,6 +79,10 @@ def new(
 
     For example:
         assur new my.toml --from delta_4s
+        assur new my.toml 3-RPS
+        assur new my.toml 3-RRR spherical
+        assur new my.toml "3UPS&UP"
+        assur new my.toml "3-_R_Pa(4S)"
         assur new my.toml --limb "R[z] R[z] R[z]" --count 3
         assur new my.toml --limb "U P S" --count 6
         assur new my.toml --limb "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O"
@@ -76,13 +91,23 @@ def new(
             --chain "P[y] P(4R)[y] P(4R)[x]"
     """
     path = _target(file, force=force)
-    if from_ and not chain and not limb:
+    if from_ and not chain and not limb and not shorthand:
         _refuse_options(path, {"--count": count, "--actuate": actuate, "--mode": mode})
         return _from_catalogue(from_, path, force=force, with_closed_form=with_closed_form)
-    chains = _chains(path, from_, chain, limb, count)
     if with_closed_form:
         raise UsageError("--with-closed-form goes with --from; a draft has no closed form", hint="leave it out")
-    return _draft(chains, path, actuate, mode)
+    if shorthand and not from_ and not chain and not limb:
+        _refuse_options(path, {"--count": count})
+        return _arranged(shorthand, arrangement, path, actuate, mode)
+    return _draft(_chains(path, from_, chain, limb, count, shorthand), path, actuate, mode)
+
+
+def _arranged(shorthand: str, name: str, path: Path, actuate: str, mode: str) -> Outcome:
+    from assur.synthesis.shorthand.arrangements import arranged
+
+    meant = arranged(shorthand, name)
+    said = (f"{meant.shown}: {meant.says}; in full:", f"    {meant.options}")
+    return _draft(meant.chains, path, actuate or ",".join(meant.actuate), mode or meant.mode, said)
 
 
 def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
@@ -97,7 +122,7 @@ def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: boo
     return _draft(described.chains, path, numbers, described.mode)
 
 
-def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str) -> Outcome:
+def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str, read: Sequence[str] = ()) -> Outcome:
     from assur.results.files import write_whole
     from assur.synthesis.drafting.drafting import drafted
 
@@ -109,6 +134,7 @@ def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str) -> Outc
     topology = found.topology
     freedoms = plural(topology.dof - topology.internal_freedoms, "degree")
     said = [
+        *read,
         f"drafted from {plural(len(chains), 'limb')}: {topology.poc}, {freedoms} of freedom, "
         f"coupling degree {topology.coupling_degree}; checked: it is sound, and this is its topology",
         *found.notes,
@@ -142,23 +168,24 @@ def _written_copy(copy: Copied, path: Path, *, force: bool, with_closed_form: bo
     return _outcome(path, files, said)
 
 
-def _chains(path: Path, from_: str, chain: Sequence[str], limb: str, count: str) -> Sequence[Chain]:
+def _chains(path: Path, from_: str, chain: Sequence[str], limb: str, count: str, shorthand: str) -> Sequence[Chain]:
     """The chains that were given in exactly one of the ways."""
     from assur.synthesis.drafting.repeating import repeated
     from assur.topology.notation import parse_chains
 
-    given = [name for name, value in (("--from", from_), ("--chain", chain), ("--limb", limb)) if value]
+    ways = (("a shorthand", shorthand), ("--from", from_), ("--chain", chain), ("--limb", limb))
+    given = [name for name, value in ways if value]
     if len(given) != 1:
         found = " and ".join(given) if given else "nothing to begin with"
-        hint = f'for example: assur new {path} --from delta_4s, or assur new {path} --limb "R[z] R[z] R[z]" --count 3'
-        raise UsageError(f"{found}; give one of --from, --chain and --limb", hint=hint)
+        hint = f'for example: assur new {path} 3-RPS, or assur new {path} --limb "R[z] R[z] R[z]" --count 3'
+        raise UsageError(f"{found}; give a shorthand or one of --from, --chain and --limb", hint=hint)
     if limb:
         return repeated(limb, whole_number(count or LIMBS, "--count"))
     _refuse_options(path, {"--count": count}, "--limb")
     return parse_chains(chain)
 
 
-def _refuse_options(path: Path, given: dict[str, str], which: str = "--chain or --limb") -> None:
+def _refuse_options(path: Path, given: dict[str, str], which: str = "--limb") -> None:
     """Options that say nothing here."""
     for name, value in given.items():
         if value:

@@ -60,7 +60,7 @@ def test_what_is_read(text, expected):
         ("P^{(4R)", 1, "closes"),
         ("P(5R)[x]", 1, "planar loop"),
         ("P(4R)(4S)", 5, "a second kind"),
-        ("Pa(4S)", 2, "a second kind"),
+        ("Pa(4S)(4S)", 6, "a second kind"),
         ("R(2P4R)(6R)", 7, "a second kind"),
         ("P(4X)[x]", 1, "4R, 4S, 4U, 2US"),
         ("U(4R)", 1, "at an R or a P"),

@@ -134,9 +134,18 @@ def factors(record: MechanismRecord, problem: Problem) -> tuple[Factor, ...]:
     >>> ('A2', 'B2', 'P') in [factor.joints for factor in factors(load_record("fivebar"), "inverse")]
     True
     """
-    screws = ScrewColumns(record, assemblies_by_chance(record))
+    screws = _apart(ScrewColumns(record, assemblies_by_chance(record)))
     signs: list[Factor] = [*_stroke_signs(screws), *_loop_signs(screws), *_block_signs(record, problem, screws)]
     return tuple(sorted(signs, key=lambda sign: len(sign.joints)))
+
+
+def _apart(screws: ScrewColumns) -> ScrewColumns:
+    """The assemblies in which no two balls meet that are apart at home: a rod between them would have no line."""
+    balls = [screws.centre(name) for name, joint in screws.record.joints.items() if joint.type.ball]
+    gaps = [np.linalg.norm(second - first, axis=1) for first, second in combinations(balls, 2)]
+    near = [gap <= SMALL * characteristic_length(screws.record) for gap in gaps]
+    meeting = np.any([held & ~held[0] for held in near], axis=0) if near else np.zeros(len(screws.values), dtype=bool)
+    return ScrewColumns(screws.record, screws.values[~meeting])
 
 
 def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:

@@ -20,17 +20,24 @@ FloatArray = NDArray[np.float64]
 COMBINATIONS = 60_000
 """Sets with one joint for each limb that are tried before limbs may have several."""
 
+FREE = 6
+"""Freedoms of a limb that holds the platform back in nothing."""
+
 UNUSUAL = 1000
 """By how many places from the base a P, R, H or C is preferred to another joint, or to the second axis of a joint."""
 
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A component that may be driven: its column, the limb (or branch) that it is in, how far it is from the base."""
+    """A component that may be driven: its column, the limb (or branch) that it is in, how far it is from the base.
+
+    `holds`: whether its limb holds the platform back, so that it may be there for that alone.
+    """
 
     column: int
     group: tuple[int, ...]
     distance: int
+    holds: bool
 
 
 def admissible_drives(
@@ -40,8 +47,9 @@ def admissible_drives(
 
     As many as the platform has freedoms: motions that leave it at rest need no drive, unless they move every joint
     that could have one. One for each limb, or branch of an inner loop, where that is possible, P, R, H and C joints
-    before others, and of such sets the one that is nearest to the base, the first limbs first. Where it is not, the
-    nearest joint of each limb, then the second, and so on, as they are needed.
+    before others, and of such sets the one that drives the fewest limbs which hold the platform back, as the UP of a
+    3UPS&UP, and is nearest to the base, the first limbs first. Where it is not, the nearest joint of each limb, then
+    the second, and so on, as they are needed.
 
     Args:
         edges: parallelograms as one, with twists at generic configurations.
@@ -76,12 +84,19 @@ def _one_each(candidates: Sequence[_Candidate], needed: int, useful: FloatArray)
     for candidate in candidates:
         groups.setdefault(candidate.group, []).append(candidate)
     sets = (some for parts in combinations(groups.values(), needed) for some in product(*parts))
-    tried = sorted(islice(sets, COMBINATIONS), key=lambda some: sum(candidate.distance for candidate in some))
+    tried = sorted(islice(sets, COMBINATIONS), key=_less_likely)
     columns = np.array([[candidate.column for candidate in some] for some in tried], dtype=int).reshape(
         len(tried), needed
     )
     good = np.flatnonzero(spanning(useful, columns))
     return [int(column) for column in columns[good[0]]] if len(good) else []
+
+
+def _less_likely(candidates: Sequence[_Candidate]) -> tuple[int, ...]:
+    """How many joints are unusual drives, how many limbs hold the platform back, how far all are from the base."""
+    distances = [candidate.distance for candidate in candidates]
+    unusual = sum(distance // UNUSUAL for distance in distances)
+    return unusual, sum(candidate.holds for candidate in candidates), sum(distances)
 
 
 def _in_turn(candidates: Sequence[_Candidate], needed: int, useful: FloatArray) -> list[int]:
@@ -106,13 +121,20 @@ def _candidates(edges: Sequence[Edge], chains: Sequence[Chain], columns: Sequenc
         for number, chain in enumerate(chains)
         for name, group, distance in _places(chain.elements, (number,), 0)
     }
+    holds = [_holds(chain) for chain in chains]
     names = [edge.name for edge in edges for _ in range(edge.freedoms)]
     second = [name.endswith(".2") and name not in places for name in column_names(edges)]
     candidates = []
     for column in columns:
         group, distance = places[names[column]]
-        candidates.append(_Candidate(column, group, distance + UNUSUAL * second[column]))
+        candidates.append(_Candidate(column, group, distance + UNUSUAL * second[column], holds[group[0]]))
     return sorted(candidates, key=lambda candidate: (candidate.group, candidate.distance))
+
+
+def _holds(chain: Chain) -> bool:
+    """Whether a limb has an inner loop or fewer freedoms than a platform by itself."""
+    looped = any(isinstance(element, InnerLoop) for element in chain.elements)
+    return looped or sum(joint.freedoms for joint in chain.joints) < FREE
 
 
 def _places(

@@ -33,7 +33,7 @@ def read_joint(cursor: Cursor) -> WrittenJoint | None:
     start = cursor.at
     if match := cursor.take(_PARALLELOGRAM):
         digits = _group(match)
-        joint = WrittenJoint("P", start, kind="4R", name=f"Pa{digits}" if digits else "")
+        joint = WrittenJoint("P", start, kind=_kind_behind(cursor), name=f"Pa{digits}" if digits else "")
     elif match := cursor.take(_LETTER):
         number = cursor.take(_NUMBER)
         joint = WrittenJoint(match.group(), start, name=match.group() + _group(number) if number else "")
@@ -44,6 +44,16 @@ def read_joint(cursor: Cursor) -> WrittenJoint | None:
         if grown is None:
             return _checked(cursor, joint)
         joint = grown
+
+
+def _kind_behind(cursor: Cursor) -> ParallelogramKind:
+    """That of Pa(4S), which some write for P(4S); a Pa alone has four R."""
+    start = cursor.at
+    match = cursor.take(_ROUND) if cursor.sees(_ROUND) else None
+    kind = _KINDS.get(_group(match).strip()) if match else None
+    if kind is None:
+        cursor.at = start
+    return kind or "4R"
 
 
 def _grown(cursor: Cursor, joint: WrittenJoint) -> WrittenJoint | None:
