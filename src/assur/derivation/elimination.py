@@ -1,0 +1,224 @@
+"""One set solved: every item by that one whose two roots are left, and these by a line that meets a circle or a sphere.
+
+All unknowns but those of one item follow from the linear equations. The quadrics of the others, less multiples of its
+own, are then linear too: two circles meet on a line, three spheres on one. A factor that all coefficients of such an
+equation share is divided out and kept as a condition: where it vanishes, the equation says nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import sympy
+
+from assur.derivation.linear import ONE, Form, form_of, rank, solved, tidy, value_of
+from assur.derivation.loop_equations import Item
+from assur.derivation.orientations import NotDerivedError
+from assur.derivation.witness import Witness
+from assur.numerics.vectors import add, cross, dot, scaled, subtract
+
+ZERO = sympy.Integer(0)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A symbol, the formula that it stands for, and why, in a few words."""
+
+    symbol: sympy.Symbol
+    formula: sympy.Expr
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Root:
+    """A choice of two: `symbol` is `sign` times the root of `radicand`; the sign is that of `quantity`."""
+
+    symbol: sympy.Symbol
+    sign: str
+    radicand: sympy.Symbol
+
+
+@dataclass(frozen=True)
+class Solved:
+    """One set, solved.
+
+    Attributes:
+        items: what was solved for; the first is the one whose two roots are left.
+        equations: linear in the unknowns, as the loops give them.
+        lines: linear equations that the quadrics give.
+        conditions: what was divided by, and must not vanish.
+        definitions: symbols in the order of computation, those of the items last.
+        roots: the choices of two.
+    """
+
+    items: tuple[Item, ...]
+    equations: tuple[Form, ...]
+    lines: tuple[Form, ...]
+    conditions: tuple[sympy.Expr, ...]
+    definitions: tuple[Definition, ...]
+    roots: tuple[Root, ...]
+
+
+def solution(
+    number: int, items: Sequence[Item], equations: Sequence[Form], witness: Witness, taken: set[str]
+) -> Solved:
+    """A set solved for its items. Errors: NotDerivedError, where more than two roots are left."""
+    for base in items:
+        others = [unknown for item in items if item is not base for unknown in item.unknowns]
+        if rank(equations, others, witness) == len(others):
+            return _Set(number, base, items, equations, witness, taken).solved()
+    names = " and ".join(item.name for item in items)
+    raise NotDerivedError(f"{names} belong together: {len(equations)} linear equations")
+
+
+class _Set:
+    def __init__(
+        self, number: int, base: Item, items: Sequence[Item], equations: Sequence[Form], witness: Witness, taken: set[str]
+    ) -> None:
+        self.number, self.base, self.witness = number, base, witness
+        self.others = [item for item in items if item is not base]
+        self.definitions: list[Definition] = []
+        self.conditions: list[sympy.Expr] = []
+        self.roots: list[Root] = []
+        self.taken, self.letters = taken, iter("BCDEFGPQSTUV")
+        self.equations = [self._with_names(form) for form in equations]
+
+    def _with_names(self, form: Form) -> Form:
+        """What is known of an equation under one name."""
+        known = form.get(ONE, ZERO)
+        if sympy.count_ops(known) < 2:
+            return form
+        return {**form, ONE: self._named(next(self.letters), known)}
+
+    def solved(self) -> Solved:
+        unknowns = [unknown for item in self.others for unknown in item.unknowns]
+        values, lines = solved(self.equations, unknowns, self.witness)
+        given = len(lines)
+        lines += [line for item in self.others if (line := self._line(item, values)) is not None]
+        lines = self._independent(lines)
+        (self._circle if self.base.kind == "circle" else self._sphere)(lines)
+        for unknown in unknowns:
+            self._define(unknown, value_of(values[unknown]))
+        return Solved(
+            (self.base, *self.others),
+            tuple(self.equations),
+            tuple(lines[given:]),
+            tuple(self.conditions),
+            tuple(self.definitions),
+            tuple(self.roots),
+        )
+
+    def _line(self, item: Item, values: dict[sympy.Symbol, Form]) -> Form | None:
+        """What an item's quadric says beside the base's: a linear equation of the base's unknowns."""
+        own = self.base.unknowns
+        quadric = sympy.expand(sum(value_of(values[unknown]) ** 2 for unknown in item.unknowns) - 1)
+        square = quadric.coeff(own[0], 2)
+        quadric = sympy.expand(quadric - square * self.base.quadric)
+        left = [quadric.coeff(a, 2) if a == b else quadric.coeff(a, 1).coeff(b, 1) for a in own for b in own]
+        if not all(map(self.witness.is_zero, left)):
+            raise NotDerivedError(f"the quadrics of {self.base.name} and {item.name} have no line in common")
+        linear = sum(quadric.coeff(a, 1).subs(dict.fromkeys(own, 0)) * a for a in own)
+        form = form_of(linear + quadric.subs(dict.fromkeys(own, 0)), own, self.witness)
+        return self._divided(form) if form else None
+
+    def _divided(self, form: Form) -> Form:
+        """A form without the factor that all of it shares, which is kept as a condition."""
+        keys = list(form)
+        parts = [sympy.factor(sympy.together(form[key])) for key in keys]
+        numerators, denominators = zip(*(sympy.fraction(part) for part in parts), strict=True)
+        scale = sympy.Integer(1)
+        for denominator in denominators:
+            scale = sympy.lcm(scale, denominator)
+        whole = [sympy.cancel(part * scale) for part in parts]
+        shared = whole[0]
+        for part in whole[1:]:
+            shared = sympy.gcd(shared, part)
+        if shared.free_symbols:
+            self.conditions += [
+                factor for factor, _ in sympy.factor_list(shared)[1] if not factor.is_positive and factor.free_symbols
+            ]
+        return {key: tidy(part / shared) for key, part in zip(keys, whole, strict=True)}
+
+    def _independent(self, lines: Sequence[Form]) -> list[Form]:
+        kept: list[Form] = []
+        for line in lines:
+            if rank([*kept, line], self.base.unknowns, self.witness) > len(kept):
+                kept.append(line)
+        return kept
+
+    def _define(self, symbol: sympy.Symbol, formula: sympy.Expr, meaning: str = "") -> sympy.Symbol:
+        self.definitions.append(Definition(symbol, formula, meaning))
+        self.witness.define(symbol, formula)
+        return symbol
+
+    def _named(self, letter: str, formula: sympy.Expr) -> sympy.Expr:
+        """A formula of more than one symbol gets a name."""
+        if sympy.sympify(formula).is_number or sympy.sympify(formula).is_Symbol:
+            return sympy.sympify(formula)
+        return self._define(self._symbol(letter), sympy.factor_terms(formula))
+
+    def _symbol(self, letter: str) -> sympy.Symbol:
+        """A symbol of a name that nothing has."""
+        name = f"{letter}{self.number}"
+        while name in self.taken:
+            name += "_"
+        self.taken.add(name)
+        return sympy.Symbol(name, real=True)
+
+    def _root(self, radicand: sympy.Expr) -> sympy.Symbol:
+        own, root, sign = self._define(self._symbol("M"), radicand), self._symbol("r"), self._symbol("e").name
+        self.roots.append(Root(root, sign, own))
+        return self._define(root, sympy.sqrt(own))
+
+    def _circle(self, lines: Sequence[Form]) -> None:
+        """a cos + b sin + d = 0 on the unit circle."""
+        cosine, sine = self.base.unknowns
+        if len(lines) > 1:
+            values, _ = solved(lines, self.base.unknowns, self.witness)
+            for unknown in self.base.unknowns:
+                self._define(unknown, value_of(values[unknown]))
+            return
+        (line,) = lines
+        a, b, d = line.get(cosine, ZERO), line.get(sine, ZERO), -line.get(ONE, ZERO)
+        if a == 0 or b == 0:
+            known, other = (sine, cosine) if a == 0 else (cosine, sine)
+            self._define(known, tidy(d / (b if a == 0 else a)))
+            self._define(other, self._root(1 - known**2))
+            return
+        a, b, d = self._named("J", a), self._named("K", b), self._named("L", d)
+        square = self._named("N", a**2 + b**2)
+        self.conditions.append(square)
+        root = self._root(square - d**2)
+        self._define(cosine, (a * d - b * root) / square)
+        self._define(sine, (b * d + a * root) / square)
+
+    def _sphere(self, lines: Sequence[Form]) -> None:
+        """Two planes n.e = k meet in a line along w = n1 x n2, which meets the unit sphere."""
+        own = self.base.unknowns
+        if len(lines) != 2:
+            raise NotDerivedError(f"{self.base.name}: {len(lines)} linear equations for a direction")
+        normals, shares = [], []
+        for letter, line in zip(("u", "v"), lines, strict=True):
+            x, y, z = (
+                self._named(f"{letter}{axis}", line.get(key, ZERO)) for axis, key in zip("xyz", own, strict=True)
+            )
+            normals.append((x, y, z))
+            shares.append(self._named("h" if letter == "u" else "k", -line.get(ONE, ZERO)))
+        (n, m), (h, k) = normals, shares
+        x, y, z = (self._named(f"w{axis}", part) for axis, part in zip("xyz", cross(n, m), strict=True))
+        w = x, y, z
+        square = self._named("N", dot(w, w))
+        self.conditions.append(square)
+        apart = subtract(scaled(m, h), scaled(n, k))
+        root = self._root(square - dot(apart, apart))
+        start = add(scaled(cross(m, w), h), scaled(cross(w, n), k))
+        for unknown, part, along in zip(own, start, w, strict=True):
+            self._define(unknown, (part + along * root) / square)
+
+
+def choices(parts: Sequence[Solved]) -> Iterator[Root]:
+    """All choices of two, in the order of solution."""
+    return (root for part in parts for root in part.roots)
+
+

@@ -1,0 +1,126 @@
+"""Linear forms whose coefficients are formulas, eliminated exactly; what vanishes is told at a witness."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import sympy
+
+from assur.derivation.witness import Witness
+
+Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
+"""Unknown -> its coefficient; of 1 the constant. What is zero is left out."""
+ONE = sympy.Integer(1)
+
+
+def form_of(expression: sympy.Expr, unknowns: Sequence[sympy.Symbol], witness: Witness) -> Form:
+    """An expression that is linear in some symbols as a form.
+
+    >>> x, a = sympy.symbols("x a")
+    >>> form_of(2 * a * x - a, [x], Witness())
+    {x: 2*a, 1: -a}
+    """
+    expanded = sympy.expand(expression)
+    form = {unknown: expanded.coeff(unknown) for unknown in unknowns}
+    form[ONE] = expanded.subs(dict.fromkeys(unknowns, 0))
+    return {key: tidy(value) for key, value in form.items() if not witness.is_zero(value)}
+
+
+def tidy(formula: sympy.Expr) -> sympy.Expr:
+    """A formula over one denominator without common factors, if it has one."""
+    expanded = sympy.expand(formula)
+    if any(part.exp.is_negative for part in expanded.atoms(sympy.Pow) if part.base.free_symbols):
+        return sympy.cancel(sympy.together(formula))
+    return expanded
+
+
+def value_of(form: Form) -> sympy.Expr:
+    """The form as an expression."""
+    return sum((coefficient * key for key, coefficient in form.items()), sympy.Integer(0))
+
+
+def combined(first: Form, factor: sympy.Expr, second: Form, witness: Witness) -> Form:
+    """first + factor second."""
+    total = dict(first)
+    for key, coefficient in second.items():
+        changed = total.get(key, sympy.Integer(0)) + factor * coefficient
+        if witness.is_zero(changed):
+            total.pop(key, None)
+        else:
+            total[key] = tidy(changed)
+    return total
+
+
+def replaced(form: Form, values: Mapping[sympy.Symbol, Form], witness: Witness) -> Form:
+    """A form in which some unknowns are forms of others."""
+    total = {key: coefficient for key, coefficient in form.items() if key not in values}
+    for key, coefficient in form.items():
+        if key in values:
+            total = combined(total, coefficient, values[key], witness)
+    return total
+
+
+def solved(
+    forms: Iterable[Form], unknowns: Sequence[sympy.Symbol], witness: Witness
+) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
+    """Some of the unknowns as forms of what is left, and the equations that are left, in which they do not occur.
+
+    >>> x, y = sympy.symbols("x y")
+    >>> solved([{x: ONE, y: -ONE}, {x: ONE, y: ONE, ONE: -2 * ONE}], [x], Witness())
+    ({x: {y: 1}}, [{y: 2, 1: -2}])
+    """
+    left = [form for form in forms if form]
+    values: dict[sympy.Symbol, Form] = {}
+    while True:
+        pivots = [(_cost(form, key), k, key) for k, form in enumerate(left) for key in unknowns if key in form]
+        if not pivots:
+            return values, left
+        _, k, key = min(pivots, key=lambda pivot: pivot[:1])
+        pivot = left.pop(k)
+        own = {other: tidy(-part / pivot[key]) for other, part in pivot.items() if other != key}
+        left = [replaced(form, {key: own}, witness) if key in form else form for form in left]
+        left = [form for form in left if form]
+        values = {other: replaced(form, {key: own}, witness) for other, form in values.items()} | {key: own}
+
+
+def sparse(forms: Sequence[Form], witness: Witness) -> list[Form]:
+    """Equations of the same span with few unknowns each: pairs are combined as long as that shortens one of them.
+
+    >>> x, y, z = sympy.symbols("x y z")
+    >>> sparse([{x: ONE, y: ONE}, {x: ONE, y: ONE, z: ONE}], Witness())
+    [{x: 1, y: 1}, {z: 1}]
+    """
+    left = [form for form in forms if form]
+    while (better := _shorter(left, witness)) is not None:
+        k, form = better
+        left[k] = form
+        left = [form for form in left if form]
+    return left
+
+
+def _shorter(forms: Sequence[Form], witness: Witness) -> tuple[int, Form] | None:
+    for k, form in enumerate(forms):
+        for other in forms:
+            shared = [key for key in form if key in other and key != ONE]
+            if other is form or not shared or len(other) > len(form) + 1:
+                continue
+            for key in shared:
+                changed = combined(form, tidy(-form[key] / other[key]), other, witness)
+                if _size(changed) < _size(form):
+                    return k, changed
+    return None
+
+
+def _size(form: Form) -> tuple[int, int]:
+    return len(form.keys() - {ONE}), sum(int(sympy.count_ops(part)) for part in form.values())
+
+
+def _cost(form: Form, key: sympy.Symbol) -> tuple[int, int]:
+    """Numbers are divided by before single symbols, those before sums; then short forms before long ones."""
+    pivot = form[key]
+    return (0 if pivot.is_number else 1 + int(sympy.count_ops(pivot)), len(form))
+
+
+def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: Witness) -> int:
+    """The rank of the coefficients of some unknowns, at the witness."""
+    return witness.rank([[form.get(key, sympy.Integer(0)) for key in unknowns] for form in forms])

@@ -1,0 +1,173 @@
+"""Loop equations: linear in the unknowns of links that turn, and in lengths along fixed directions.
+
+A loop is a sum of vectors from joint to joint, each fixed in a link. One in a link that turns about u is
+w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction. What is not linear belongs to
+an item alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import sympy
+
+from assur.derivation.linear import Form, form_of
+from assur.derivation.orientations import NotDerivedError, Orientation, Orientations
+from assur.derivation.symbols import Symbols
+from assur.joint_graph.tree import joint_graph
+from assur.joints.steps import UNTURNED
+from assur.model.mechanism import Joint
+from assur.model.pose import LENGTHS
+from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract
+
+
+@dataclass(frozen=True)
+class Item:
+    """What is unknown of a link: cosine and sine of an angle, or the components of a rod's direction.
+
+    Attributes:
+        kind: "circle" or "rod".
+        name: by which its angle is called.
+        unknowns: its symbols.
+        links: whose orientation it says.
+    """
+
+    kind: Literal["circle", "rod"]
+    name: str
+    unknowns: tuple[sympy.Symbol, ...]
+    links: tuple[str, ...]
+
+    @property
+    def quadric(self) -> sympy.Expr:
+        """What vanishes of its own accord: the sum of squares less 1."""
+        return sum(unknown**2 for unknown in self.unknowns) - 1
+
+    @property
+    def freedoms(self) -> int:
+        """How many linear equations determine it, but for a choice of two."""
+        return len(self.unknowns) - 1
+
+
+@dataclass(frozen=True, eq=False)
+class LoopEquations:
+    """What vanishes.
+
+    Attributes:
+        forms: linear equations, each zero.
+        items: unknowns of links that turn, and of rods.
+        lengths: index in the joint values -> symbol of a length that is sought.
+        point: the platform's point as linear forms.
+        directions: link -> vectors of it, as functions of the unknowns.
+    """
+
+    forms: tuple[Form, ...]
+    items: tuple[Item, ...]
+    lengths: Mapping[int, sympy.Symbol]
+    point: tuple[Form, Form, Form]
+
+
+def loop_equations(symbols: Symbols, placed: Orientations) -> LoopEquations:
+    """The equations of all loops, and of the platform's point where the pose is given. Errors: NotDerivedError."""
+    return _Loops(symbols, placed).equations()
+
+
+class _Loops:
+    def __init__(self, symbols: Symbols, placed: Orientations) -> None:
+        self.symbols, self.record, self.placed = symbols, symbols.record, placed
+        self.graph = joint_graph(self.record)
+        self.lengths: dict[int, sympy.Symbol] = {}
+        self.circles = {k: self._item("circle", k, links) for k, links in self._numbered("circle").items()}
+        self.rods = {k: self._item("rod", k, links) for k, links in self._numbered("rod").items()}
+
+    def equations(self) -> LoopEquations:
+        point: dict[str, tuple[Vector, Vector]] = {self.record.base: ((0, 0, 0), (0, 0, 0))}
+        gaps: list[Vector] = []
+        for joint, forward in self.graph.tree:
+            near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+            start, end = self._points(joint) if forward else self._points(joint)[::-1]
+            place = add(self._place(near, start, point), scaled(self._slid(joint), 1 if forward else -1))
+            point[far] = end, place
+        for joint in self.graph.cut:
+            start, end = self._points(joint)
+            reached = add(self._place(joint.parent, start, point), self._slid(joint))
+            gaps.append(subtract(reached, self._place(joint.child, end, point)))
+        platform = self._place(self.record.platform.link, self.symbols.geometry.platform, point)
+        rows = [part for gap in gaps for part in gap]
+        rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
+        used = {symbol for row in (*rows, *platform) for symbol in sympy.sympify(row).free_symbols}
+        items = [item for item in (*self.circles.values(), *self.rods.values()) if used & {*item.unknowns}]
+        unknowns = [*self.lengths.values(), *(unknown for item in items for unknown in item.unknowns)]
+        forms = (form_of(row, unknowns, self.symbols.witness) for row in rows)
+        x, y, z = (form_of(part, unknowns, self.symbols.witness) for part in platform)
+        return LoopEquations(tuple(form for form in forms if form), tuple(items), dict(self.lengths), (x, y, z))
+
+    def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
+        numbered: dict[int, list[str]] = {}
+        for link, own in self.placed.links.items():
+            number = own.rod if kind == "rod" else own.circle if own.rod is None else None
+            if number is not None:
+                numbered.setdefault(number, []).append(link)
+        return numbered
+
+    def _item(self, kind: Literal["circle", "rod"], number: int, links: list[str]) -> Item:
+        name = next((link for link in links if "'" not in link), links[0]).replace(".", "_").replace("'s cross", "")
+        prefixes = ("cos", "sin") if kind == "circle" else ("ex", "ey", "ez")
+        return Item(kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links))
+
+    def _points(self, joint: Joint) -> tuple[Vector, Vector]:
+        own = self.symbols.geometry.joints[joint.name]
+        return own.at, own.child_at
+
+    def _place(self, link: str, vector: Vector, point: Mapping[str, tuple[Vector, Vector]]) -> Vector:
+        known, place = point[link]
+        return add(place, self.carried(link, subtract(vector, known)))
+
+    def _slid(self, joint: Joint) -> Vector:
+        total: Vector = (0, 0, 0)
+        for axis, index in self._sliding(joint):
+            length = self.symbols.locked.get(index)
+            if length is None:
+                length = self.lengths.setdefault(index, sympy.Symbol(f"q_{joint.name.replace('.', '_')}", real=True))
+            total = add(total, scaled(self._direction(joint, axis), length))
+        return total
+
+    def _sliding(self, joint: Joint) -> Iterator[tuple[Vector, int]]:
+        axes, start = self.symbols.geometry.joints[joint.name].axes, self.graph.slices[joint.name].start
+        for step, first in joint.type.places:
+            if step.kind == "slide":
+                yield axes[step.direction], start + first
+
+    def _direction(self, joint: Joint, axis: Vector) -> Vector:
+        """The direction of a slider, which must be fixed."""
+        direction = self.carried(joint.parent, axis)
+        unknowns = {unknown for item in (*self.circles.values(), *self.rods.values()) for unknown in item.unknowns}
+        if any(sympy.sympify(part).free_symbols & unknowns for part in direction):
+            raise NotDerivedError(f"{joint.name} slides on a link that turns")
+        return direction
+
+    def carried(self, link: str, vector: Vector) -> Vector:
+        """A vector fixed in a link, in the base."""
+        own = self.placed.links[link]
+        turned = apply(own.constant, vector) if own.constant is not UNTURNED else vector
+        if own.rod is not None:
+            return self._along(link, own, turned)
+        if own.axis is None or own.circle is None:
+            return turned
+        cosine, sine = self.circles[own.circle].unknowns
+        along = scaled(own.axis, dot(own.axis, turned))
+        across = self._tidied(subtract(turned, along))
+        return add(along, add(scaled(across, cosine), scaled(self._tidied(cross(own.axis, across)), sine)))
+
+    def _along(self, link: str, own: Orientation, vector: Vector) -> Vector:
+        line = own.line or (0, 0, 0)
+        share = dot(line, vector)
+        if not all(map(self.symbols.witness.is_zero, subtract(vector, scaled(line, share)))):
+            raise NotDerivedError(f"{link} is no straight rod")
+        ex, ey, ez = self.rods[own.rod or 0].unknowns
+        return scaled((ex, ey, ez), sympy.simplify(share))
+
+    def _tidied(self, vector: Vector) -> Vector:
+        x, y, z = (0 if self.symbols.witness.is_zero(part) else sympy.expand(part) for part in vector)
+        return x, y, z

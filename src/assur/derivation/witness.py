@@ -1,0 +1,200 @@
+"""A witness: values of all symbols modulo a large prime, at which formulas are told from zero.
+
+A formula that vanishes there is an identity, but for a probability of its degree over 2^160. Dimensions and inputs are
+drawn; what is derived of them has a value by its formula. Where a radicand has no root, all is drawn anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import sympy
+
+from assur.numerics.prime_field import LARGE, PrimeField, below
+
+Element = tuple[int, int]
+"""An element of F_p(i): real and imaginary part."""
+TRIES = 200
+"""Draws after which a root is taken not to exist; of k roots of roots one draw in 2^k has them all."""
+
+
+class NoRootError(ArithmeticError):
+    """A radicand that has no root at what was drawn."""
+
+
+class Witness:
+    """Values of symbols in F_p(i).
+
+    >>> x, y = sympy.symbols("x y")
+    >>> Witness(1).is_zero((x + y) ** 2 - x**2 - 2 * x * y - y**2)
+    True
+    """
+
+    def __init__(self, seed: int = 0) -> None:
+        self._random = np.random.default_rng(seed)
+        self.field = PrimeField.drawn(self._random, LARGE)
+        self._circles: list[tuple[sympy.Symbol, sympy.Symbol]] = []
+        self._definitions: list[tuple[sympy.Symbol, sympy.Expr]] = []
+        self._values: dict[Any, Element] = {}
+
+    def on_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
+        """Two symbols are cosine and sine of one angle."""
+        self._circles.append((cosine, sine))
+        self._draw_circle(cosine, sine)
+
+    def define(self, symbol: sympy.Symbol, formula: sympy.Expr) -> None:
+        """A symbol stands for a formula of symbols that have a value."""
+        self._definitions.append((symbol, formula))
+        try:
+            self._values[symbol] = self.value(formula)
+        except NoRootError:
+            self._draw_again()
+
+    def is_zero(self, formula: Any) -> bool:
+        """Whether a formula vanishes identically."""
+        return self.value(sympy.sympify(formula)) == (0, 0)
+
+    def value(self, formula: sympy.Expr) -> Element:
+        """The value of a formula. Errors: NoRootError."""
+        if formula not in self._values:
+            self._values[formula] = self._worked_out(formula)
+        return self._values[formula]
+
+    def rank(self, rows: list[list[sympy.Expr]]) -> int:
+        """The rank of a matrix of formulas."""
+        left = [[self.value(entry) for entry in row] for row in rows]
+        count = 0
+        for column in range(len(left[0]) if left else 0):
+            pivot = next((row for row in left[count:] if row[column] != (0, 0)), None)
+            if pivot is None:
+                continue
+            left.remove(pivot)
+            left.insert(count, pivot)
+            factor = self._inverse(pivot[column])
+            for k in range(count + 1, len(left)):
+                share = self._times(left[k][column], factor)
+                if share != (0, 0):
+                    left[k] = [self._minus(a, self._times(share, b)) for a, b in zip(left[k], pivot, strict=True)]
+            count += 1
+        return count
+
+    def _draw_again(self) -> None:
+        for _ in range(TRIES):
+            self._values = {}
+            for cosine, sine in self._circles:
+                self._draw_circle(cosine, sine)
+            try:
+                for symbol, formula in self._definitions:
+                    self._values[symbol] = self.value(formula)
+            except NoRootError:
+                continue
+            return
+        raise NoRootError("no draw at which every radicand has a root")
+
+    def _draw_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
+        p, t = self.field.p, below(self._random, 1, self.field.p)
+        size = pow(1 + t * t, -1, p)
+        self._values[cosine], self._values[sine] = ((1 - t * t) * size % p, 0), (2 * t * size % p, 0)
+
+    def _worked_out(self, formula: sympy.Expr) -> Element:
+        p = self.field.p
+        if formula.is_Rational:
+            return self.field.residue(Fraction(int(formula.p), int(formula.q))), 0
+        if formula.is_Symbol:
+            return below(self._random, 1, p), 0
+        if formula.is_Add:
+            parts = list(self._parts(formula))
+            return sum(a for a, _ in parts) % p, sum(b for _, b in parts) % p
+        if formula.is_Mul:
+            result = 1, 0
+            for part in self._parts(formula):
+                result = self._times(result, part)
+            return result
+        if formula.is_Pow:
+            return self._power(formula.base, sympy.Rational(formula.exp))
+        if isinstance(formula, (sympy.cos, sympy.sin)):
+            return self._circle(formula.args[0])[isinstance(formula, sympy.sin)]
+        raise TypeError(f"no value of {formula}")
+
+    def _parts(self, formula: sympy.Expr) -> Iterator[Element]:
+        return (self.value(part) for part in formula.args)
+
+    def _power(self, base: sympy.Expr, exponent: sympy.Rational) -> Element:
+        own = self._root(base) if exponent.q == 2 else self.value(base)
+        if exponent.p < 0:
+            own = self._inverse(own)
+        result = 1, 0
+        for _ in range(abs(int(exponent.p))):
+            result = self._times(result, own)
+        return result
+
+    def _root(self, radicand: sympy.Expr) -> Element:
+        key = sympy.Function("root")(radicand)
+        if key not in self._values:
+            self._values[key] = (
+                self.field.root(Fraction(int(radicand.p), int(radicand.q)))
+                if radicand.is_Rational
+                else self._root_of(*self.value(radicand))
+            )
+        return self._values[key]
+
+    def _root_of(self, a: int, b: int) -> Element:
+        p = self.field.p
+        if b == 0:
+            root = pow(a, (p + 1) // 4, p)
+            return (root, 0) if root * root % p == a else (0, root)
+        norm = (a * a + b * b) % p
+        size = pow(norm, (p + 1) // 4, p)
+        if size * size % p != norm:
+            raise NoRootError("a radicand without a root")
+        half = pow(2, -1, p)
+        for square in ((a + size) * half % p, (a - size) * half % p):
+            real = pow(square, (p + 1) // 4, p)
+            if real and real * real % p == square:
+                return real, b * half * pow(real, -1, p) % p
+        raise NoRootError("a radicand without a root")
+
+    def _circle(self, angle: sympy.Expr) -> tuple[Element, Element]:
+        """Cosine and sine of a sum of multiples of angles."""
+        cosine, sine = (1, 0), (0, 0)
+        for part, factor in angle.as_coefficients_dict().items():
+            own = self._angle(part, sympy.Rational(factor))
+            cosine, sine = (
+                self._minus(self._times(cosine, own[0]), self._times(sine, own[1])),
+                self._plus(self._times(sine, own[0]), self._times(cosine, own[1])),
+            )
+        return cosine, sine
+
+    def _angle(self, angle: sympy.Expr, factor: sympy.Rational) -> tuple[Element, Element]:
+        if angle == sympy.pi:
+            cosine, sine = self.field.cosine_and_sine(Fraction(int(factor.p), 2 * int(factor.q)))
+            return (cosine, 0), (sine, 0)
+        share = angle * sympy.Rational(1, factor.q)  # the angle whose whole multiple is meant
+        symbols = sympy.Function("circle_cos")(share), sympy.Function("circle_sin")(share)
+        if symbols[0] not in self._values:
+            self._draw_circle(*symbols)
+        own = self._values[symbols[0]], self._values[symbols[1]]
+        cosine, sine = (1, 0), (0, 0)
+        for _ in range(abs(int(factor.p))):
+            cosine, sine = (
+                self._minus(self._times(cosine, own[0]), self._times(sine, own[1])),
+                self._plus(self._times(sine, own[0]), self._times(cosine, own[1])),
+            )
+        return cosine, sine if factor.p > 0 else self._minus((0, 0), sine)
+
+    def _times(self, a: Element, b: Element) -> Element:
+        p = self.field.p
+        return (a[0] * b[0] - a[1] * b[1]) % p, (a[0] * b[1] + a[1] * b[0]) % p
+
+    def _plus(self, a: Element, b: Element) -> Element:
+        return (a[0] + b[0]) % self.field.p, (a[1] + b[1]) % self.field.p
+
+    def _minus(self, a: Element, b: Element) -> Element:
+        return (a[0] - b[0]) % self.field.p, (a[1] - b[1]) % self.field.p
+
+    def _inverse(self, a: Element) -> Element:
+        size = pow(a[0] * a[0] + a[1] * a[1], -1, self.field.p)
+        return a[0] * size % self.field.p, -a[1] * size % self.field.p
