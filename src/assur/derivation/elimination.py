@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from assur.derivation.linear import ONE, Form, form_of, rank, solved, tidy, value_of
+from assur.derivation.linear import ONE, Form, form_of, never_zero, rank, solved, tidy, value_of
 from assur.derivation.loop_equations import Item
 from assur.derivation.orientations import NotDerivedError
 from assur.derivation.witness import Witness
@@ -32,11 +32,11 @@ class Definition:
 
 @dataclass(frozen=True)
 class Root:
-    """A choice of two: `symbol` is `sign` times the root of `radicand`; the sign is that of `quantity`."""
+    """A choice of two: `symbol` is the root of `radicand` with either sign, and is `quantity` of the unknowns."""
 
     symbol: sympy.Symbol
-    sign: str
     radicand: sympy.Symbol
+    quantity: sympy.Expr
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,13 @@ def solution(
 
 class _Set:
     def __init__(
-        self, number: int, base: Item, items: Sequence[Item], equations: Sequence[Form], witness: Witness, taken: set[str]
+        self,
+        number: int,
+        base: Item,
+        items: Sequence[Item],
+        equations: Sequence[Form],
+        witness: Witness,
+        taken: set[str],
     ) -> None:
         self.number, self.base, self.witness = number, base, witness
         self.others = [item for item in items if item is not base]
@@ -93,7 +99,7 @@ class _Set:
 
     def solved(self) -> Solved:
         unknowns = [unknown for item in self.others for unknown in item.unknowns]
-        values, lines = solved(self.equations, unknowns, self.witness)
+        values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
         given = len(lines)
         lines += [line for item in self.others if (line := self._line(item, values)) is not None]
         lines = self._independent(lines)
@@ -149,6 +155,7 @@ class _Set:
 
     def _define(self, symbol: sympy.Symbol, formula: sympy.Expr, meaning: str = "") -> sympy.Symbol:
         self.definitions.append(Definition(symbol, formula, meaning))
+        self.witness.home.setdefault(symbol, self.witness.at_home(formula))
         self.witness.define(symbol, formula)
         return symbol
 
@@ -166,16 +173,20 @@ class _Set:
         self.taken.add(name)
         return sympy.Symbol(name, real=True)
 
-    def _root(self, radicand: sympy.Expr) -> sympy.Symbol:
-        own, root, sign = self._define(self._symbol("M"), radicand), self._symbol("r"), self._symbol("e").name
-        self.roots.append(Root(root, sign, own))
-        return self._define(root, sympy.sqrt(own))
+    def _root(self, radicand: sympy.Expr, quantity: sympy.Expr) -> sympy.Symbol:
+        """The root of a radicand, with the sign that it has at home."""
+        own, root = self._define(self._symbol("M"), radicand), self._symbol("r")
+        at_home = self.witness.home[root] = self.witness.at_home(quantity)
+        self.roots.append(Root(root, own, quantity))
+        self.definitions.append(Definition(root, sympy.sqrt(own)))
+        self.witness.define(root, -sympy.sqrt(own) if at_home < 0.0 else sympy.sqrt(own))
+        return root
 
     def _circle(self, lines: Sequence[Form]) -> None:
         """a cos + b sin + d = 0 on the unit circle."""
         cosine, sine = self.base.unknowns
         if len(lines) > 1:
-            values, _ = solved(lines, self.base.unknowns, self.witness)
+            values, _ = solved(lines, self.base.unknowns, self.witness, self.conditions)
             for unknown in self.base.unknowns:
                 self._define(unknown, value_of(values[unknown]))
             return
@@ -183,13 +194,16 @@ class _Set:
         a, b, d = line.get(cosine, ZERO), line.get(sine, ZERO), -line.get(ONE, ZERO)
         if a == 0 or b == 0:
             known, other = (sine, cosine) if a == 0 else (cosine, sine)
-            self._define(known, tidy(d / (b if a == 0 else a)))
-            self._define(other, self._root(1 - known**2))
+            divisor = b if a == 0 else a
+            if not never_zero(divisor):
+                self.conditions.append(divisor)
+            self._define(known, tidy(d / divisor))
+            self._define(other, self._root(1 - known**2, other))
             return
         a, b, d = self._named("J", a), self._named("K", b), self._named("L", d)
         square = self._named("N", a**2 + b**2)
         self.conditions.append(square)
-        root = self._root(square - d**2)
+        root = self._root(square - d**2, a * sine - b * cosine)
         self._define(cosine, (a * d - b * root) / square)
         self._define(sine, (b * d + a * root) / square)
 
@@ -211,7 +225,7 @@ class _Set:
         square = self._named("N", dot(w, w))
         self.conditions.append(square)
         apart = subtract(scaled(m, h), scaled(n, k))
-        root = self._root(square - dot(apart, apart))
+        root = self._root(square - dot(apart, apart), dot(w, own))
         start = add(scaled(cross(m, w), h), scaled(cross(w, n), k))
         for unknown, part, along in zip(own, start, w, strict=True):
             self._define(unknown, (part + along * root) / square)

@@ -11,6 +11,8 @@ from assur.derivation.witness import Witness
 Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
 """Unknown -> its coefficient; of 1 the constant. What is zero is left out."""
 ONE = sympy.Integer(1)
+VANISHED = 1e-9
+"""A coefficient at home, of lengths in the file's unit, that is rounding."""
 
 
 def form_of(expression: sympy.Expr, unknowns: Sequence[sympy.Symbol], witness: Witness) -> Form:
@@ -61,9 +63,14 @@ def replaced(form: Form, values: Mapping[sympy.Symbol, Form], witness: Witness) 
 
 
 def solved(
-    forms: Iterable[Form], unknowns: Sequence[sympy.Symbol], witness: Witness
+    forms: Iterable[Form],
+    unknowns: Sequence[sympy.Symbol],
+    witness: Witness,
+    conditions: list[sympy.Expr] | None = None,
 ) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
     """Some of the unknowns as forms of what is left, and the equations that are left, in which they do not occur.
+
+    What is divided by and may vanish is added to the conditions.
 
     >>> x, y = sympy.symbols("x y")
     >>> solved([{x: ONE, y: -ONE}, {x: ONE, y: ONE, ONE: -2 * ONE}], [x], Witness())
@@ -72,15 +79,56 @@ def solved(
     left = [form for form in forms if form]
     values: dict[sympy.Symbol, Form] = {}
     while True:
-        pivots = [(_cost(form, key), k, key) for k, form in enumerate(left) for key in unknowns if key in form]
+        pivots = [(_cost(form, key, witness), k, key) for k, form in enumerate(left) for key in unknowns if key in form]
         if not pivots:
             return values, left
         _, k, key = min(pivots, key=lambda pivot: pivot[:1])
         pivot = left.pop(k)
+        if conditions is not None and not never_zero(pivot[key]):
+            conditions.append(pivot[key])
         own = {other: tidy(-part / pivot[key]) for other, part in pivot.items() if other != key}
         left = [replaced(form, {key: own}, witness) if key in form else form for form in left]
         left = [form for form in left if form]
         values = {other: replaced(form, {key: own}, witness) for other, form in values.items()} | {key: own}
+
+
+def projected(
+    forms: Sequence[Form], lengths: Sequence[sympy.Symbol], witness: Witness
+) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
+    """Lengths as forms of what is left, and what is left of the equations, each projected on its own coefficients.
+
+    A length along a unit vector a has the coefficients a in three equations: a of these is it, whatever a is.
+    """
+    left, values = list(forms), dict[sympy.Symbol, Form]()
+    for length in lengths:
+        rows = [form for form in left if length in form]
+        pivot: Form = {}
+        for row in rows:
+            pivot = combined(pivot, row[length], row, witness)
+        size = sympy.simplify(pivot[length])
+        own = {key: tidy(-part / size) for key, part in pivot.items() if key != length}
+        left = [form for form in (replaced(form, {length: own}, witness) for form in left) if form]
+        values = {key: replaced(form, {length: own}, witness) for key, form in values.items()} | {length: own}
+    return values, left
+
+
+def divided(row: Form) -> Form:
+    """A row times its denominators, without the factor that all of it shares.
+
+    >>> a, x, y = sympy.symbols("a x y")
+    >>> divided({x: 2 * a / y, y: a})
+    {x: 2, y: y}
+    """
+    keys = list(row)
+    fractions = [sympy.fraction(sympy.cancel(sympy.together(row[key]))) for key in keys]
+    scale = sympy.Integer(1)
+    for _, denominator in fractions:
+        scale = sympy.lcm(scale, denominator)
+    whole = [sympy.cancel(numerator * scale / denominator) for numerator, denominator in fractions]
+    shared = whole[0]
+    for part in whole[1:]:
+        shared = sympy.gcd(shared, part)
+    return {key: sympy.cancel(part / shared) for key, part in zip(keys, whole, strict=True)}
 
 
 def sparse(forms: Sequence[Form], witness: Witness) -> list[Form]:
@@ -115,10 +163,16 @@ def _size(form: Form) -> tuple[int, int]:
     return len(form.keys() - {ONE}), sum(int(sympy.count_ops(part)) for part in form.values())
 
 
-def _cost(form: Form, key: sympy.Symbol) -> tuple[int, int]:
-    """Numbers are divided by before single symbols, those before sums; then short forms before long ones."""
+def _cost(form: Form, key: sympy.Symbol, witness: Witness) -> tuple[int, int, int]:
+    """Numbers are divided by first, then what never vanishes, then what does not at home; short forms first."""
     pivot = form[key]
-    return (0 if pivot.is_number else 1 + int(sympy.count_ops(pivot)), len(form))
+    sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if abs(witness.at_home(pivot)) > VANISHED else 3
+    return sure, int(sympy.count_ops(pivot)), len(form)
+
+
+def never_zero(formula: sympy.Expr) -> bool:
+    """Whether a formula of positive dimensions and the like cannot vanish."""
+    return bool(sympy.factor_terms(formula).is_nonzero)
 
 
 def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: Witness) -> int:

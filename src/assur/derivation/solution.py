@@ -9,7 +9,8 @@ from itertools import product as choices_of
 import sympy
 
 from assur.derivation.elimination import Definition, Root, Solved, solution
-from assur.derivation.linear import Form, form_of, solved, sparse, value_of
+from assur.derivation.home_numbers import home_numbers
+from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
 from assur.derivation.loop_equations import Item, LoopEquations, loop_equations
 from assur.derivation.orientations import Orientations, orientations
 from assur.derivation.sets import next_set
@@ -83,8 +84,9 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     symbols = Symbols(record, problem, witness)
     placed = orientations(symbols)
     loops = loop_equations(symbols, placed)
-    lengths, forms = solved(sparse(loops.forms, witness), list(loops.lengths.values()), witness)
-    sets = _sets(sparse(forms, witness), loops.items, witness, _names(record))
+    witness.home = home_numbers(symbols, placed, loops.items)
+    lengths, forms = projected(sparse(loops.forms, witness), list(loops.lengths.values()), witness)
+    sets = _sets(sparse([divided(form) for form in forms], witness), loops.items, witness, _names(record))
     found = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in found:
         witness.define(own.symbol, own.formula)

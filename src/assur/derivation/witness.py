@@ -39,6 +39,8 @@ class Witness:
         self._circles: list[tuple[sympy.Symbol, sympy.Symbol]] = []
         self._definitions: list[tuple[sympy.Symbol, sympy.Expr]] = []
         self._values: dict[Any, Element] = {}
+        self.home: dict[sympy.Symbol, float] = {}
+        """What symbols are at home, where that is known."""
 
     def on_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
         """Two symbols are cosine and sine of one angle."""
@@ -62,6 +64,10 @@ class Witness:
         if formula not in self._values:
             self._values[formula] = self._worked_out(formula)
         return self._values[formula]
+
+    def at_home(self, formula: Any) -> float:
+        """The value of a formula at home."""
+        return float(sympy.sympify(formula).evalf(30, subs=self.home))
 
     def rank(self, rows: list[list[sympy.Expr]]) -> int:
         """The rank of a matrix of formulas."""

@@ -1,0 +1,172 @@
+"""Velocity equations Jp v = Jq q', derived from the loop equations: what is passive is eliminated.
+
+Each unknown of the inverse problem has a rate. The loops say linear equations between these, those of the pose and of
+the inputs; each circle and each rod says that its rate is across it: c c' + s s' = 0. An equation is divided by what
+all of its coefficients share, so that it stays regular where that vanishes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy
+
+from assur.derivation.linear import Form, divided, form_of, replaced, solved, sparse
+from assur.derivation.loop_equations import Item
+from assur.derivation.orientations import NotDerivedError
+from assur.derivation.solution import AnalyticSolution
+from assur.derivation.symbols import circle_of
+from assur.model.pose import ANGLES
+from assur.numerics.vectors import Vector, apply, scaled, subtract
+
+
+@dataclass(frozen=True, eq=False)
+class VelocityEquations:
+    """Rows of Jp and of Jq, and the factors of their determinants with their powers.
+
+    Attributes:
+        jp, jq: (n, n) formulas in the unknowns of the inverse problem, the pose and dimensions.
+        parallel, serial: factors of det Jp and det Jq, a number first.
+    """
+
+    jp: sympy.Matrix
+    jq: sympy.Matrix
+    parallel: tuple[tuple[sympy.Expr, int], ...]
+    serial: tuple[tuple[sympy.Expr, int], ...]
+
+
+def velocity_equations(solution: AnalyticSolution) -> VelocityEquations:
+    """The velocity equations of an inverse problem that was solved. Errors: NotDerivedError."""
+    return _Velocities(solution).equations()
+
+
+class _Velocities:
+    def __init__(self, solution: AnalyticSolution) -> None:
+        self.solution, self.symbols, self.witness = solution, solution.symbols, solution.symbols.witness
+        self.record = self.symbols.record
+        self.pose = [sympy.Symbol(f"d_{name}", real=True) for name in self.record.platform.pose]
+        self.inputs = [sympy.Symbol(f"d_{driven.name}", real=True) for driven in self.record.inputs]
+        self.passive: list[sympy.Symbol] = []
+        self.rates = dict(self._rates())
+
+    def equations(self) -> VelocityEquations:
+        driven = [*self._driven()]
+        forms = [self._rate(form) for form in self.solution.loops.forms]
+        values, rows = solved(forms, self.passive, self.witness)
+        for item in self.solution.loops.items:
+            if item not in driven:
+                across = {self.rates[unknown]: unknown for unknown in item.unknowns}  # type: ignore[dict-item]
+                rows.append(replaced(across, values, self.witness))
+        _, rows = solved(rows, self.passive, self.witness)
+        rows = [divided(self._alike(row)) for row in rows if row]
+        rows = [divided(row) for row in sparse(rows, self.witness)]
+        size = len(self.pose)
+        if len(rows) != size or len(self.inputs) != size:
+            raise NotDerivedError(f"{len(rows)} velocity equations for {size} rates of the pose")
+        jp = sympy.Matrix([[row.get(rate, 0) for rate in self.pose] for row in rows])
+        jq = sympy.Matrix([[-row.get(rate, 0) for rate in self.inputs] for row in rows])
+        return VelocityEquations(jp, jq, factors_of(jp), factors_of(jq))
+
+    def _alike(self, row: Form) -> Form:
+        """A row in which unknowns that are the same, or opposite, have one name."""
+        alike: dict[sympy.Symbol, sympy.Expr] = {}
+        for form in sparse(self.solution.loops.forms, self.witness):
+            if len(form) == 2 and all(isinstance(key, sympy.Symbol) for key in form):
+                (first, a), (second, b) = form.items()
+                if self.witness.is_zero(a - b) or self.witness.is_zero(a + b):
+                    alike[first] = second if self.witness.is_zero(a + b) else -second
+        return {key: part.subs(alike) for key, part in row.items()}
+
+    def _driven(self) -> Iterator[Item]:
+        """Circles of links that inputs turn."""
+        for driven in self.record.inputs:
+            if driven.coordinate.kind == "angle":
+                yield self._circle(self.record.joints[driven.coordinate.joint].child)
+
+    def _circle(self, link: str) -> Item:
+        for item in self.solution.loops.items:
+            if item.kind == "circle" and link in item.links:
+                return item
+        raise NotDerivedError(f"{link} is driven, and on no circle")
+
+    def _rates(self) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
+        """Symbol -> its rate."""
+        for name, rate in zip(self.record.platform.pose, self.pose, strict=True):
+            if name in ANGLES:
+                cosine, sine = circle_of(name)
+                yield from ((cosine, -sine * rate), (sine, cosine * rate))
+            else:
+                yield sympy.Symbol(name, real=True), rate
+        lengths = self.solution.loops.lengths
+        for driven, rate in zip(self.record.inputs, self.inputs, strict=True):
+            index = driven.coordinate.index
+            if index in lengths:
+                yield lengths[index], int(driven.sign) * rate
+            else:
+                joint = self.record.joints[driven.coordinate.joint]
+                item, sense = self._circle(joint.child), self._sense(joint.name) * int(driven.sign)
+                cosine, sine = item.unknowns
+                yield from ((cosine, -sense * sine * rate), (sine, sense * cosine * rate))
+        driven_items = [*self._driven()]
+        indices = {driven.coordinate.index for driven in self.record.inputs}
+        free = [symbol for index, symbol in lengths.items() if index not in indices]
+        free += [unknown for item in self.solution.loops.items if item not in driven_items for unknown in item.unknowns]
+        for unknown in free:
+            rate = sympy.Symbol(f"d_{unknown.name}", real=True)
+            self.passive.append(rate)
+            yield unknown, rate
+
+    def _sense(self, name: str) -> int:
+        """Whether a driven joint turns its child about its circle's axis, or against it."""
+        joint, links = self.record.joints[name], self.solution.placed.links
+        parent, child = links[joint.parent], links[joint.child]
+        if parent.axis is not None or child.axis is None:
+            raise NotDerivedError(f"{name} is driven, and its parent turns")
+        axis: Vector = apply(parent.constant, self.symbols.geometry.joints[name].axes[0])
+        same = all(map(self.witness.is_zero, subtract(axis, child.axis)))
+        if not same and not all(map(self.witness.is_zero, subtract(scaled(axis, -1), child.axis))):
+            raise NotDerivedError(f"{name} is driven about another axis than its child turns")
+        return 1 if same else -1
+
+    def _rate(self, form: Form) -> Form:
+        expression = sum((part * key for key, part in form.items()), sympy.Integer(0))
+        total = sum(expression.diff(symbol) * rate for symbol, rate in self.rates.items())
+        return form_of(total, [*self.passive, *self.pose, *self.inputs], self.witness)
+
+
+def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
+    """Factors of a determinant with their powers, a number first.
+
+    Rows and columns with one entry are taken out first: an entry is small, and a root of three in it does no harm.
+
+    >>> x, y = sympy.symbols("x y")
+    >>> factors_of(sympy.Matrix([[2 * x, 0], [1, x + y]]))
+    ((2, 1), (x, 1), (x + y, 1))
+    """
+    number, powers = sympy.Integer(1), dict[sympy.Expr, int]()
+    left = matrix
+    while True:
+        alone = _alone(left)
+        own = left[alone] * (-1) ** sum(alone) if alone else left.det(method="berkowitz") if left.rows else 1
+        own = sympy.factor(sympy.cancel(own))
+        share, factors = sympy.Integer(1), own.as_powers_dict().items()
+        number *= share
+        for factor, power in factors:
+            if factor.is_number:
+                share *= factor**power
+            else:
+                powers[factor] = powers.get(factor, 0) + int(power)
+        if alone is None:
+            return ((number, 1), *powers.items())
+        left = left.minor_submatrix(*alone)
+
+
+def _alone(matrix: sympy.Matrix) -> tuple[int, int] | None:
+    """The place of an entry that is alone in its row or column."""
+    for lines, place in ((matrix.tolist(), lambda i, j: (i, j)), (matrix.T.tolist(), lambda i, j: (j, i))):
+        for i, line in enumerate(lines):
+            entries = [j for j, entry in enumerate(line) if entry != 0]
+            if len(entries) == 1:
+                return place(i, entries[0])
+    return None
