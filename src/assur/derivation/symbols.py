@@ -79,7 +79,8 @@ class Symbols:
     def circles(self) -> list[Circle]:
         """Cosine and sine of each angle that is given."""
         angles = [value for value in self.locked.values() if isinstance(value, tuple)]
-        return [(cosine, abs_of(sine)) for cosine, sine in angles]
+        posed = self.record.platform.pose if self.problem == "inverse" else ()
+        return [(cosine, abs_of(sine)) for cosine, sine in angles] + [circle_of(name) for name in posed if name in ANGLES]
 
     @cached_property
     def place(self) -> dict[str, sympy.Symbol]:

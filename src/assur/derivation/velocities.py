@@ -149,12 +149,10 @@ def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
     while True:
         alone = _alone(left)
         own = left[alone] * (-1) ** sum(alone) if alone else left.det(method="berkowitz") if left.rows else 1
-        own = sympy.factor(sympy.cancel(own))
-        share, factors = sympy.Integer(1), own.as_powers_dict().items()
-        number *= share
-        for factor, power in factors:
+        for base, exponent in sympy.factor(sympy.cancel(own)).as_powers_dict().items():
+            factor, power = (sympy.sqrt(base), 2 * exponent) if exponent.q == 2 else (base, exponent)
             if factor.is_number:
-                share *= factor**power
+                number *= factor**power
             else:
                 powers[factor] = powers.get(factor, 0) + int(power)
         if alone is None:

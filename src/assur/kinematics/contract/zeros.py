@@ -35,17 +35,22 @@ def false_zeros(kernel: Kernel, solutions: Solutions) -> list[Mismatch]:
     return [mismatch for item in factors for mismatch in _of_factor(kernel, solutions, item)]
 
 
-def _of_factor(kernel: Kernel, answer: Solutions, factor: Factor) -> list[Mismatch]:
-    record, (place,) = answer.record, kernel.outputs["factor"][factor.name]
-    plus, minus, signs = _opposite(answer, factor.name)
+def zeros_of(kernel: Kernel, answer: Solutions, name: str) -> Solutions:
+    """Solutions of the inverse problem at which a factor vanishes, on ways between those where its sign differs."""
+    (place,) = kernel.outputs["factor"][name]
+    plus, minus, signs = _opposite(answer, name)
     for _ in range(HALVINGS if len(plus) else 0):
         middle = (plus + minus) / 2
         positive = (kernel.values(middle, signs)[place] > 0)[:, None]
         plus, minus = np.where(positive, middle, plus), np.where(positive, minus, middle)
     if not len(plus):
-        return []
-    zeros = solutions(record, "inverse", plus)
-    own = zeros.at(np.all((zeros.signs == signs[zeros.rows]) | (zeros.signs == 0), axis=-1))
+        return answer.at(np.zeros(0, dtype=int))
+    zeros = solutions(answer.record, "inverse", plus)
+    return zeros.at(np.all((zeros.signs == signs[zeros.rows]) | (zeros.signs == 0), axis=-1))
+
+
+def _of_factor(kernel: Kernel, answer: Solutions, factor: Factor) -> list[Mismatch]:
+    record, own = answer.record, zeros_of(kernel, answer, factor.name)
     if not len(own):
         return []
     motion = motions(record, own.joints)

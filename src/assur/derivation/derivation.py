@@ -1,0 +1,35 @@
+"""A mechanism's closed form, derived from its joint graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from assur.derivation.closed_form_text import ClosedFormText
+from assur.derivation.mode_signs import root_signs
+from assur.derivation.rank_losses import rank_losses
+from assur.derivation.solution import AnalyticSolution, analytic_solution
+from assur.model.mechanism import MechanismRecord
+
+
+@dataclass(frozen=True, eq=False)
+class Derivation:
+    """Both problems of a mechanism, solved by formulas."""
+
+    record: MechanismRecord
+    direct: AnalyticSolution
+    inverse: AnalyticSolution
+
+    def closed_form(self) -> str:
+        """The file `closed_form.py`. Errors: NotDerivedError."""
+        plain = ClosedFormText(self.direct, self.inverse, root_signs(self.direct, self.inverse))
+        return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
+
+
+def derived(record: MechanismRecord) -> Derivation:
+    """The closed form of a mechanism. Errors: NotDerivedError.
+
+    >>> from assur.model.registry import load_record
+    >>> derived(load_record("fivebar")).direct.branches
+    2
+    """
+    return Derivation(record, analytic_solution(record, "direct"), analytic_solution(record, "inverse"))

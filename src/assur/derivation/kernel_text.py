@@ -1,0 +1,46 @@
+"""Formulas as text of a kernel: + - * /, whole powers and `ns.sqrt`, dimensions as attributes of `p`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import sympy
+from sympy.printing.pycode import PythonCodePrinter
+
+from assur.derivation.elimination import Definition
+
+WIDTH = 116
+
+
+class KernelPrinter(PythonCodePrinter):
+    """Prints formulas of a mechanism.
+
+    >>> KernelPrinter({"l2"}).doprint(sympy.sqrt(3) * sympy.Symbol("l2") * sympy.Symbol("x") ** 2 / 2)
+    'ns.sqrt(3)*p.l2*x**2/2'
+    """
+
+    def __init__(self, parameters: Iterable[str]) -> None:
+        super().__init__()
+        self._parameters = {*parameters}
+
+    def _print_Symbol(self, expr: Any) -> str:
+        return f"p.{expr.name}" if expr.name in self._parameters else str(expr.name)
+
+    def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+        base, power = expr.base, expr.exp
+        if power.is_Rational and power.q == 2:
+            root = f"ns.sqrt({self._print(base)})" + (f"**{abs(power.p)}" if abs(power.p) > 1 else "")
+            return root if power > 0 else f"1/{root}"
+        if power.is_Integer and power < 0:
+            inner = self.parenthesize(base, 60)
+            return f"1/{inner}" if power == -1 else f"1/{inner}**{-power}"
+        return str(super()._print_Pow(expr, rational=rational))
+
+    def _print_Rational(self, expr: Any) -> str:
+        return f"{expr.p}/{expr.q}"
+
+
+def assignments(definitions: Iterable[Definition], printer: KernelPrinter) -> list[str]:
+    """Lines of a kernel, one for each definition."""
+    return [f"    {own.symbol.name} = {printer.doprint(own.formula)}" for own in definitions]
