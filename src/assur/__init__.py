@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from assur.version import VERSION
 
 if TYPE_CHECKING:
+    from assur.derivation.derivation import derive
     from assur.errors import AssurError, MechanismFileError, UnknownNameError, UsageError
     from assur.mechanism import Mechanism, load, names
 
@@ -25,11 +26,13 @@ __all__ = [
     "MechanismFileError",
     "UnknownNameError",
     "UsageError",
+    "derive",
     "load",
     "names",
 ]
 
 _HOMES = {name: "assur.errors" if name.endswith("Error") else "assur.mechanism" for name in __all__}
+_HOMES["derive"] = "assur.derivation.derivation"
 
 if not TYPE_CHECKING:  # so that a type checker still refuses an unknown name
 

@@ -46,7 +46,7 @@ def loaded(cache, words):
 @pytest.mark.parametrize(
     ("words", "packages", "most"),
     [
-        (("--help",), set(), 50),
+        (("--help",), set(), 51),
         (("list",), NUMPY | READ, 122),
         (("show", "zeng2019"), NUMPY, 126),
         (DIRECT, NUMPY, 137),

@@ -13,6 +13,7 @@ from assur.results.answers.certificate import (
 from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
 from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
+from assur.results.answers.derivation import DerivationAnswer
 from assur.results.answers.files import (
     EndedView,
     WrittenExport,
@@ -48,6 +49,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "collisions": (CollisionsAnswer,),
     "crosscheck": (CrossCheckAnswer,),
     "demo": (DemonstrationAnswer,),
+    "derive": (DerivationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
     "export": (WrittenExport,),

@@ -28,7 +28,7 @@ For example:
 GROUPS = {
     "Mechanisms": ("list", "show", "check", "new", "schema"),
     "Topology": ("topology", "synthesize"),
-    "Position": ("direct", "inverse", "follow", "sweep"),
+    "Position": ("direct", "inverse", "derive", "follow", "sweep"),
     "Singularity, workspace, quality": ("singularity", "workspace", "aspects", "indices"),
     "See it move": ("page", "view", "motion"),
     "Draw, write, build": ("figures", "report", "export", "collisions"),

@@ -10,9 +10,10 @@ from typing import Any
 import sympy
 
 from assur.derivation.elimination import Definition, Root
-from assur.derivation.joint_formulas import BallRotation, JointFormulas, joint_formulas
+from assur.derivation.joint_formulas import BallRotation, SolvedJoints, joint_formulas
 from assur.derivation.kernel_text import KernelPrinter
 from assur.derivation.orientations import NotDerivedError
+from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.derivation.velocities import VelocityEquations, velocity_equations
@@ -55,7 +56,7 @@ class ClosedFormText:
         return KernelPrinter(self.inverse.symbols.record.parameters)
 
     @cached_property
-    def joints(self) -> JointFormulas:
+    def joints(self) -> SolvedJoints:
         """Formulas of all joints."""
         return joint_formulas(self.inverse)
 
@@ -72,7 +73,7 @@ class ClosedFormText:
 
     @cached_property
     def posed(self) -> list[sympy.Symbol]:
-        """Symbols of the pose."""
+        """GivenSymbols of the pose."""
         names = self.inverse.symbols.record.platform.pose
         return [symbol for name in names for symbol in (circle_of(name) if name in ANGLES else (_real(name),))]
 
@@ -82,10 +83,8 @@ class ClosedFormText:
         imports = []
         if self.joints.pointings:
             imports.append("from assur.numerics.legs import pointing")
-        vectors = sorted(
-            {name for name, used in (("taking", self.joints.tilts), ("product", self._many), ("transposed", self._turned))
-             if used}
-        )  # fmt: skip
+        used = {"taking": bool(self.joints.tilts), "product": self._many, "transposed": self._turned}
+        vectors = sorted(name for name, needed in used.items() if needed)
         if vectors:
             imports.append(f"from assur.numerics.vectors import {', '.join(vectors)}")
         return CODE_HEAD.format(name=record.name, sets=sets, imports="\n".join(imports))
@@ -141,7 +140,7 @@ class ClosedFormText:
 
     @cached_property
     def printed_inputs(self) -> list[Any]:
-        """Symbols of the inputs of the direct problem."""
+        """GivenSymbols of the inputs of the direct problem."""
         record = self.direct.symbols.record
         return [
             circle_of(driven.name) if driven.coordinate.kind == "angle" else _real(driven.name)
@@ -154,11 +153,11 @@ class ClosedFormText:
         own: list[Any] = []
         for driven in self.inverse.symbols.record.inputs:
             name = driven.coordinate.joint
-            value = self.joints.values.get(name, self.joints.values.get(f"{name}.{driven.coordinate.component}"))
+            value: Any = self.joints.values.get(name, self.joints.values.get(f"{name}.{driven.coordinate.component}"))
             if driven.coordinate.kind == "angle":
                 if driven.offset:
                     raise NotDerivedError(f"{driven.name} is an angle with an offset")
-                cosine, sine = value  # type: ignore[misc]
+                cosine, sine = value
                 own.append((cosine, int(driven.sign) * sine))
             else:
                 own.append(value * int(driven.sign) + sympy.nsimplify(driven.offset, rational=True))
@@ -209,8 +208,8 @@ class ClosedFormText:
         for tilt in self.joints.tilts:
             yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
 
-    def _condition_name(self, condition: sympy.Expr, item: str, number: int) -> str:
-        return condition.name if condition.is_Symbol else f"c{number}_{item}"
+    def _condition_name(self, condition: sympy.Expr, link: str, number: int) -> str:
+        return condition.name if condition.is_Symbol else f"c{number}_{link}"
 
     def _pair_text(self, values: Sequence[Any], calls: bool = True) -> str:
         def one(value: Any) -> str:
@@ -232,7 +231,13 @@ class ClosedFormText:
                 name, sense = self.signs[solution.symbols.problem, root.symbol]
                 value = root.quantity
                 while any(symbol in known and symbol not in kept for symbol in value.free_symbols):
-                    value = value.subs({symbol: known[symbol] for symbol in value.free_symbols if symbol not in kept and symbol in known})
+                    value = value.subs(
+                        {
+                            symbol: known[symbol]
+                            for symbol in value.free_symbols
+                            if symbol not in kept and symbol in known
+                        }
+                    )
                 if solution is self.direct:
                     value = value.subs(self._inputs_in_unknowns)
                 values[name] = sympy.factor_terms(sense * value)
@@ -240,7 +245,7 @@ class ClosedFormText:
 
     @cached_property
     def _inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
-        """Symbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
+        """GivenSymbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
         pairs = zip(self.printed_inputs, self.input_pairs, strict=True)
         values: dict[sympy.Symbol, sympy.Expr] = {}
         for printed, own in pairs:
@@ -254,9 +259,8 @@ class ClosedFormText:
             sense = "-" if own.back else ""
             (a, b), (c, d) = own.carrier, own.hinge
             ahead, beside = (self.printer.doprint(-part if own.back else part) for part in (own.ahead, own.beside))
-            lines.append(
-                f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {self.printer.doprint(own.along)}, 1e-30)"
-            )
+            along = self.printer.doprint(own.along)
+            lines.append(f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)")
             if sense:
                 lines.append(f"    {c} = -{c}")
             names += [str(symbol) for symbol in (a, b, c, d)]
@@ -347,10 +351,14 @@ class ClosedFormText:
         lines = ["CLOSED_FORM = ClosedForm("]
         lines.append(f'    complete_for="{"reduced" if reduced else "joint_graph"}",')
         if reduced:
-            lines.append('    reduced_because="parallelograms stay such, and what they keep from turning is not turned over",')
+            lines.append(
+                '    reduced_because="parallelograms stay such, and what they keep from turning is not turned over",'
+            )
         lines += [f"    {name}={name}," for name in ("direct", "inverse", "joints", "factors", "jacobians")]
         lines.append("    signs={")
-        lines += [f'        "{name}": Sign("of_{name}", "{self._scale(value)}"),' for name, value in self.sign_values.items()]
+        lines += [
+            f'        "{name}": Sign("of_{name}", "{self._scale(value)}"),' for name, value in self.sign_values.items()
+        ]
         lines.append("    },")
         for problem in ("direct", "inverse"):
             lines.append(f"    {problem}_margins=(")
@@ -374,7 +382,9 @@ class ClosedFormText:
         for name, value in self._margins(problem):
             whole = value
             while any(symbol in known and symbol not in kept for symbol in whole.free_symbols):
-                whole = whole.subs({symbol: known[symbol] for symbol in whole.free_symbols if symbol not in kept and symbol in known})
+                whole = whole.subs(
+                    {symbol: known[symbol] for symbol in whole.free_symbols if symbol not in kept and symbol in known}
+                )
             unit, scale = self._unit(whole), self._scale(whole)
             if value in radicands:
                 sign, _ = self.signs[problem, radicands[value].symbol]
@@ -394,72 +404,7 @@ class ClosedFormText:
 
     @cached_property
     def _sizes(self) -> Sizes:
-        return Sizes(self)
-
-
-@dataclass(frozen=True, eq=False)
-class Sizes:
-    """How large quantities are."""
-
-    form: ClosedFormText
-
-    @cached_property
-    def reference(self) -> tuple[str, float]:
-        """The largest length among the dimensions."""
-        record = self.form.inverse.symbols.record
-        lengths = {
-            name: abs(parameter.value) for name, parameter in record.parameters.items()
-            if parameter.unit == record.unit and parameter.sign == "positive" and not parameter.drawn_only
-        }  # fmt: skip
-        name = max(lengths, key=lambda own: lengths[own])
-        return name, lengths[name]
-
-    @cached_property
-    def lengths(self) -> set[sympy.Symbol]:
-        """Symbols that are lengths."""
-        record = self.form.inverse.symbols.record
-        parameters = self.form.inverse.symbols.parameters
-        own = {parameters[name] for name, parameter in record.parameters.items() if parameter.unit == record.unit}
-        own |= {_real(name) for name in LENGTHS} | {*self.form.inverse.loops.lengths.values()}
-        return own | {printed for printed in self.form.printed_inputs if not isinstance(printed, tuple)}
-
-    def unit(self, value: sympy.Expr) -> int:
-        """Power of the length unit, by a change of all lengths."""
-        factor = 2.0
-        numbers = {symbol: 0.3 + 0.1 * k for k, symbol in enumerate(sorted(value.free_symbols, key=str))}
-        larger = {symbol: number * (factor if symbol in self.lengths else 1.0) for symbol, number in numbers.items()}
-        share = complex(value.evalf(subs=larger)) / complex(value.evalf(subs=numbers))
-        return int(sympy.log(abs(share), 2).round())
-
-    def scale(self, value: sympy.Expr) -> str:
-        """The sum of the magnitudes of its terms over a power of the largest length."""
-        name, length = self.reference
-        unit = self.unit(value)
-        size = self._size(value) / length**unit
-        factors = [name] * max(unit, 0)
-        number = f"{size:.2g}"
-        plain = number if "e" not in number else f"{size:.6f}"
-        return "*".join([plain, *factors]) + "".join(f"/{name}" for _ in range(-min(unit, 0)))
-
-    def _size(self, value: sympy.Expr) -> float:
-        if value.is_Add:
-            return sum(map(self._size, value.args))
-        if value.is_Mul:
-            size = 1.0
-            for part in value.args:
-                size *= self._size(part)
-            return size
-        if value.is_Pow:
-            return float(self._size(value.base) ** float(value.exp))
-        if value.is_Symbol:
-            return self._of_symbol(value)
-        return abs(float(value))
-
-    def _of_symbol(self, symbol: sympy.Symbol) -> float:
-        record = self.form.inverse.symbols.record
-        if symbol.name in record.parameters:
-            return abs(record.parameters[symbol.name].inside)
-        return self.reference[1] if symbol in self.lengths else 1.0
+        return Sizes(self.inverse, frozenset(own for own in self.printed_inputs if not isinstance(own, tuple)))
 
 
 def _real(name: str) -> sympy.Symbol:

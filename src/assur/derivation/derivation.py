@@ -25,11 +25,11 @@ class Derivation:
         return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
 
 
-def derived(record: MechanismRecord) -> Derivation:
+def derive(record: MechanismRecord) -> Derivation:
     """The closed form of a mechanism. Errors: NotDerivedError.
 
     >>> from assur.model.registry import load_record
-    >>> derived(load_record("fivebar")).direct.branches
+    >>> derive(load_record("fivebar")).direct.branches
     2
     """
     return Derivation(record, analytic_solution(record, "direct"), analytic_solution(record, "inverse"))

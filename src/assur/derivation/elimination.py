@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import sympy
 
-from assur.derivation.linear import ONE, Form, form_of, never_zero, rank, solved, tidy, value_of
+from assur.derivation.linear import ONE, Form, divided, form_of, never_zero, rank, solved, tidy, value_of
 from assur.derivation.loop_equations import Item
 from assur.derivation.orientations import NotDerivedError
-from assur.derivation.witness import Witness
+from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
 
 ZERO = sympy.Integer(0)
@@ -40,7 +40,7 @@ class Root:
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedSet:
     """One set, solved.
 
     Attributes:
@@ -61,8 +61,8 @@ class Solved:
 
 
 def solution(
-    number: int, items: Sequence[Item], equations: Sequence[Form], witness: Witness, taken: set[str]
-) -> Solved:
+    number: int, items: Sequence[Item], equations: Sequence[Form], witness: ModularWitness, taken: set[str]
+) -> SolvedSet:
     """A set solved for its items. Errors: NotDerivedError, where more than two roots are left."""
     for base in items:
         others = [unknown for item in items if item is not base for unknown in item.unknowns]
@@ -79,7 +79,7 @@ class _Set:
         base: Item,
         items: Sequence[Item],
         equations: Sequence[Form],
-        witness: Witness,
+        witness: ModularWitness,
         taken: set[str],
     ) -> None:
         self.number, self.base, self.witness = number, base, witness
@@ -97,7 +97,7 @@ class _Set:
             return form
         return {**form, ONE: self._named(next(self.letters), known)}
 
-    def solved(self) -> Solved:
+    def solved(self) -> SolvedSet:
         unknowns = [unknown for item in self.others for unknown in item.unknowns]
         values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
         given = len(lines)
@@ -106,7 +106,7 @@ class _Set:
         (self._circle if self.base.kind == "circle" else self._sphere)(lines)
         for unknown in unknowns:
             self._define(unknown, value_of(values[unknown]))
-        return Solved(
+        return SolvedSet(
             (self.base, *self.others),
             tuple(self.equations),
             tuple(lines[given:]),
@@ -130,21 +130,11 @@ class _Set:
 
     def _divided(self, form: Form) -> Form:
         """A form without the factor that all of it shares, which is kept as a condition."""
-        keys = list(form)
-        parts = [sympy.factor(sympy.together(form[key])) for key in keys]
-        numerators, denominators = zip(*(sympy.fraction(part) for part in parts), strict=True)
-        scale = sympy.Integer(1)
-        for denominator in denominators:
-            scale = sympy.lcm(scale, denominator)
-        whole = [sympy.cancel(part * scale) for part in parts]
-        shared = whole[0]
-        for part in whole[1:]:
-            shared = sympy.gcd(shared, part)
-        if shared.free_symbols:
-            self.conditions += [
-                factor for factor, _ in sympy.factor_list(shared)[1] if not factor.is_positive and factor.free_symbols
-            ]
-        return {key: tidy(part / shared) for key, part in zip(keys, whole, strict=True)}
+        plain = divided(form)
+        key = next(iter(form))
+        shared, _ = sympy.fraction(sympy.cancel(form[key] / plain[key]))
+        self.conditions += [factor for factor, _ in sympy.factor_list(shared)[1] if not never_zero(factor)]
+        return plain
 
     def _independent(self, lines: Sequence[Form]) -> list[Form]:
         kept: list[Form] = []
@@ -183,7 +173,7 @@ class _Set:
         return root
 
     def _circle(self, lines: Sequence[Form]) -> None:
-        """a cos + b sin + d = 0 on the unit circle."""
+        """A cos + b sin + d = 0 on the unit circle."""
         cosine, sine = self.base.unknowns
         if len(lines) > 1:
             values, _ = solved(lines, self.base.unknowns, self.witness, self.conditions)
@@ -231,8 +221,6 @@ class _Set:
             self._define(unknown, (part + along * root) / square)
 
 
-def choices(parts: Sequence[Solved]) -> Iterator[Root]:
+def choices(parts: Sequence[SolvedSet]) -> Iterator[Root]:
     """All choices of two, in the order of solution."""
     return (root for part in parts for root in part.roots)
-
-

@@ -7,8 +7,8 @@ import sympy
 from numpy.typing import NDArray
 
 from assur.derivation.loop_equations import Item
-from assur.derivation.orientations import Orientations
-from assur.derivation.symbols import Symbols, circle_of
+from assur.derivation.orientations import LinkOrientations
+from assur.derivation.symbols import GivenSymbols, circle_of
 from assur.joint_graph.frames import frames
 from assur.kinematics import pose
 from assur.kinematics.home import home_values
@@ -17,7 +17,7 @@ from assur.model.pose import ANGLES
 FloatArray = NDArray[np.float64]
 
 
-def home_numbers(symbols: Symbols, placed: Orientations, items: tuple[Item, ...]) -> dict[sympy.Symbol, float]:
+def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, items: tuple[Item, ...]) -> dict[sympy.Symbol, float]:
     """Symbol -> its value at home: dimensions, inputs, coordinates of the pose, unknowns of items."""
     record, values = symbols.record, home_values(symbols.record)
     numbers: dict[sympy.Symbol, float] = {
@@ -38,7 +38,11 @@ def home_numbers(symbols: Symbols, placed: Orientations, items: tuple[Item, ...]
             parts = turned @ _array(own.line, numbers)
         else:
             axis = _array(own.axis, numbers)
-            sine = 0.5 * axis @ np.array([turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]])
+            sine = (
+                0.5
+                * axis
+                @ np.array([turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]])
+            )
             parts = np.array([(np.trace(turned) - 1.0) / 2.0, sine])
         numbers |= dict(zip(item.unknowns, map(float, parts), strict=True))
     return numbers

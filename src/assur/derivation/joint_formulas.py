@@ -58,7 +58,7 @@ class BallRotation:
 
 
 @dataclass(frozen=True, eq=False)
-class JointFormulas:
+class SolvedJoints:
     """What a closed form says of its joints.
 
     Attributes:
@@ -71,7 +71,7 @@ class JointFormulas:
     tilts: tuple[Tilt, ...] = ()
 
 
-def joint_formulas(solution: AnalyticSolution) -> JointFormulas:
+def joint_formulas(solution: AnalyticSolution) -> SolvedJoints:
     """The joints of an inverse problem that was solved. Errors: NotDerivedError."""
     return _Joints(solution).formulas()
 
@@ -82,11 +82,11 @@ class _Joints:
     pointings: list[Pointing] = field(default_factory=list)
     tilts: dict[int, Tilt] = field(default_factory=dict)
 
-    def formulas(self) -> JointFormulas:
+    def formulas(self) -> SolvedJoints:
         values: dict[str, Any] = {}
         for joint in self.solution.symbols.record.joints.values():
             values |= dict(self._values(joint))
-        return JointFormulas(values, tuple(self.pointings), tuple(self.tilts.values()))
+        return SolvedJoints(values, tuple(self.pointings), tuple(self.tilts.values()))
 
     def _values(self, joint: Joint) -> Iterator[tuple[str, Any]]:
         own = self.solution.symbols.geometry.joints[joint.name]
@@ -109,13 +109,15 @@ class _Joints:
         return self.solution.loops.lengths[index]
 
     def _angle(self, parent: str, child: str, axis: Vector, after: Matrix) -> Pair:
-        ends = [self._about(link, axis, parent) for link in (parent, child)]
+        ends = self._about(parent, axis, parent), self._about(child, axis, parent)
         if ends[0] is not None and ends[1] is not None and self._parallel_at_zero(parent, child, after):
-            (c, s), (k, l) = ends
-            return (sympy.expand(c * k + s * l), sympy.expand(c * l - s * k))
+            (c, s), (k, t) = ends[0], ends[1]
+            return (sympy.expand(c * k + s * t), sympy.expand(c * t - s * k))
         relative = product(product(transposed(self._rotation(parent)), self._rotation(child)), transposed(after))
         cosine = sum(relative[k][k] for k in range(3)) - 1
-        sine = dot(axis, (relative[2][1] - relative[1][2], relative[0][2] - relative[2][0], relative[1][0] - relative[0][1]))
+        sine = dot(
+            axis, (relative[2][1] - relative[1][2], relative[0][2] - relative[2][0], relative[1][0] - relative[0][1])
+        )
         return self._reduced(cosine / 2), self._reduced(sine / sympy.Integer(2))
 
     def _about(self, link: str, axis: Vector, parent: str) -> Pair | None:
@@ -205,8 +207,8 @@ class _Joints:
             start = dot(own.line or (0, 0, 0), across)
             back = witness.at_home(start) < 0.0
             names = (f"cos_{item.name}_carrier", f"sin_{item.name}_carrier", f"cos_{item.name}", f"sin_{item.name}")
-            c, s, k, l = sympy.symbols(names, real=True)
-            pointings[own.rod] = Pointing((c, s), (k, l), ahead, beside, along, back)
+            c, s, k, t = sympy.symbols(names, real=True)
+            pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back)
         self.pointings += pointings.values()
         return pointings
 
@@ -226,9 +228,7 @@ class _Joints:
         own = self.solution.placed.links[link]
         if own.rod is None or own.hinge is not None:
             a, b, c = (tuple(map(self._reduced, row)) for row in self._rotation(link))
-            return UNTURNED if (a, b, c) == UNTURNED else (a, b, c)  # type: ignore[return-value]
+            return UNTURNED if (a, b, c) == UNTURNED else (a, b, c)
         item = self._rod(own.rod)
         self.tilts.setdefault(own.rod, Tilt(f"tilt_{item.name}", own.line or (0, 0, 0), item.unknowns))
         return self.tilts[own.rod].name
-
-

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import sympy
 from sympy.printing.pycode import PythonCodePrinter
 
 from assur.derivation.elimination import Definition
@@ -13,7 +12,7 @@ from assur.derivation.elimination import Definition
 WIDTH = 116
 
 
-class KernelPrinter(PythonCodePrinter):
+class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no types
     """Prints formulas of a mechanism.
 
     >>> KernelPrinter({"l2"}).doprint(sympy.sqrt(3) * sympy.Symbol("l2") * sympy.Symbol("x") ** 2 / 2)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import sympy
 
-from assur.derivation.witness import Witness
+from assur.derivation.witness import ModularWitness
 
 Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
 """Unknown -> its coefficient; of 1 the constant. What is zero is left out."""
@@ -15,11 +15,11 @@ VANISHED = 1e-9
 """A coefficient at home, of lengths in the file's unit, that is rounding."""
 
 
-def form_of(expression: sympy.Expr, unknowns: Sequence[sympy.Symbol], witness: Witness) -> Form:
+def form_of(expression: sympy.Expr, unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> Form:
     """An expression that is linear in some symbols as a form.
 
     >>> x, a = sympy.symbols("x a")
-    >>> form_of(2 * a * x - a, [x], Witness())
+    >>> form_of(2 * a * x - a, [x], ModularWitness())
     {x: 2*a, 1: -a}
     """
     expanded = sympy.expand(expression)
@@ -41,8 +41,8 @@ def value_of(form: Form) -> sympy.Expr:
     return sum((coefficient * key for key, coefficient in form.items()), sympy.Integer(0))
 
 
-def combined(first: Form, factor: sympy.Expr, second: Form, witness: Witness) -> Form:
-    """first + factor second."""
+def combined(first: Form, factor: sympy.Expr, second: Form, witness: ModularWitness) -> Form:
+    """A form plus a multiple of another."""
     total = dict(first)
     for key, coefficient in second.items():
         changed = total.get(key, sympy.Integer(0)) + factor * coefficient
@@ -53,7 +53,7 @@ def combined(first: Form, factor: sympy.Expr, second: Form, witness: Witness) ->
     return total
 
 
-def replaced(form: Form, values: Mapping[sympy.Symbol, Form], witness: Witness) -> Form:
+def replaced(form: Form, values: Mapping[sympy.Symbol, Form], witness: ModularWitness) -> Form:
     """A form in which some unknowns are forms of others."""
     total = {key: coefficient for key, coefficient in form.items() if key not in values}
     for key, coefficient in form.items():
@@ -65,7 +65,7 @@ def replaced(form: Form, values: Mapping[sympy.Symbol, Form], witness: Witness) 
 def solved(
     forms: Iterable[Form],
     unknowns: Sequence[sympy.Symbol],
-    witness: Witness,
+    witness: ModularWitness,
     conditions: list[sympy.Expr] | None = None,
 ) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
     """Some of the unknowns as forms of what is left, and the equations that are left, in which they do not occur.
@@ -73,7 +73,7 @@ def solved(
     What is divided by and may vanish is added to the conditions.
 
     >>> x, y = sympy.symbols("x y")
-    >>> solved([{x: ONE, y: -ONE}, {x: ONE, y: ONE, ONE: -2 * ONE}], [x], Witness())
+    >>> solved([{x: ONE, y: -ONE}, {x: ONE, y: ONE, ONE: -2 * ONE}], [x], ModularWitness())
     ({x: {y: 1}}, [{y: 2, 1: -2}])
     """
     left = [form for form in forms if form]
@@ -93,7 +93,7 @@ def solved(
 
 
 def projected(
-    forms: Sequence[Form], lengths: Sequence[sympy.Symbol], witness: Witness
+    forms: Sequence[Form], lengths: Sequence[sympy.Symbol], witness: ModularWitness
 ) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
     """Lengths as forms of what is left, and what is left of the equations, each projected on its own coefficients.
 
@@ -131,11 +131,11 @@ def divided(row: Form) -> Form:
     return {key: sympy.cancel(part / shared) for key, part in zip(keys, whole, strict=True)}
 
 
-def sparse(forms: Sequence[Form], witness: Witness) -> list[Form]:
+def sparse(forms: Sequence[Form], witness: ModularWitness) -> list[Form]:
     """Equations of the same span with few unknowns each: pairs are combined as long as that shortens one of them.
 
     >>> x, y, z = sympy.symbols("x y z")
-    >>> sparse([{x: ONE, y: ONE}, {x: ONE, y: ONE, z: ONE}], Witness())
+    >>> sparse([{x: ONE, y: ONE}, {x: ONE, y: ONE, z: ONE}], ModularWitness())
     [{x: 1, y: 1}, {z: 1}]
     """
     left = [form for form in forms if form]
@@ -146,7 +146,7 @@ def sparse(forms: Sequence[Form], witness: Witness) -> list[Form]:
     return left
 
 
-def _shorter(forms: Sequence[Form], witness: Witness) -> tuple[int, Form] | None:
+def _shorter(forms: Sequence[Form], witness: ModularWitness) -> tuple[int, Form] | None:
     for k, form in enumerate(forms):
         for other in forms:
             shared = [key for key in form if key in other and key != ONE]
@@ -163,7 +163,7 @@ def _size(form: Form) -> tuple[int, int]:
     return len(form.keys() - {ONE}), sum(int(sympy.count_ops(part)) for part in form.values())
 
 
-def _cost(form: Form, key: sympy.Symbol, witness: Witness) -> tuple[int, int, int]:
+def _cost(form: Form, key: sympy.Symbol, witness: ModularWitness) -> tuple[int, int, int]:
     """Numbers are divided by first, then what never vanishes, then what does not at home; short forms first."""
     pivot = form[key]
     sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if abs(witness.at_home(pivot)) > VANISHED else 3
@@ -175,6 +175,6 @@ def never_zero(formula: sympy.Expr) -> bool:
     return bool(sympy.factor_terms(formula).is_nonzero)
 
 
-def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: Witness) -> int:
+def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> int:
     """The rank of the coefficients of some unknowns, at the witness."""
     return witness.rank([[form.get(key, sympy.Integer(0)) for key in unknowns] for form in forms])

@@ -14,8 +14,8 @@ from typing import Literal
 import sympy
 
 from assur.derivation.linear import Form, form_of
-from assur.derivation.orientations import NotDerivedError, Orientation, Orientations
-from assur.derivation.symbols import Symbols
+from assur.derivation.orientations import LinkOrientations, NotDerivedError, Orientation
+from assur.derivation.symbols import GivenSymbols
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
@@ -68,18 +68,18 @@ class LoopEquations:
     point: tuple[Form, Form, Form]
 
 
-def loop_equations(symbols: Symbols, placed: Orientations) -> LoopEquations:
+def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
     """The equations of all loops, and of the platform's point where the pose is given. Errors: NotDerivedError."""
     return _Loops(symbols, placed).equations()
 
 
 class _Loops:
-    def __init__(self, symbols: Symbols, placed: Orientations) -> None:
+    def __init__(self, symbols: GivenSymbols, placed: LinkOrientations) -> None:
         self.symbols, self.record, self.placed = symbols, symbols.record, placed
         self.graph = joint_graph(self.record)
         self.lengths: dict[int, sympy.Symbol] = {}
-        self.circles = {k: self._item("circle", k, links) for k, links in self._numbered("circle").items()}
-        self.rods = {k: self._item("rod", k, links) for k, links in self._numbered("rod").items()}
+        self.circles = {k: self._item("circle", links) for k, links in self._numbered("circle").items()}
+        self.rods = {k: self._item("rod", links) for k, links in self._numbered("rod").items()}
 
     def equations(self) -> LoopEquations:
         point: dict[str, tuple[Vector, Vector]] = {self.record.base: ((0, 0, 0), (0, 0, 0))}
@@ -111,7 +111,7 @@ class _Loops:
                 numbered.setdefault(number, []).append(link)
         return numbered
 
-    def _item(self, kind: Literal["circle", "rod"], number: int, links: list[str]) -> Item:
+    def _item(self, kind: Literal["circle", "rod"], links: list[str]) -> Item:
         name = next((link for link in links if "'" not in link), links[0]).replace(".", "_").replace("'s cross", "")
         prefixes = ("cos", "sin") if kind == "circle" else ("ex", "ey", "ez")
         return Item(kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links))

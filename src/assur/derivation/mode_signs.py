@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Mapping
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import sympy
@@ -31,21 +33,24 @@ PLACES, NEAR = 24, 0.05
 def root_signs(direct: AnalyticSolution, inverse: AnalyticSolution) -> RootSigns:
     """Problem and root -> the sign of a mode, and whether the root has it or its opposite. Errors: NotDerivedError."""
     own: RootSigns = {}
-    for problem, solution in (("inverse", inverse), ("direct", direct)):
+    solutions: tuple[tuple[Problem, AnalyticSolution], ...] = (("inverse", inverse), ("direct", direct))
+    for problem, solution in solutions:
         own |= {(problem, root.symbol): (f"{problem}{k}", 1) for k, root in enumerate(solution.roots)}
     names = names_of(ClosedFormText(direct, inverse, own).text(), Path("closed_form.py"))
     form: ClosedForm = names["CLOSED_FORM"]
     joints, signs = _branches(inverse, form, [name for name, _ in own.values()])
     matched: RootSigns = {}
     record = inverse.symbols.record
-    for problem, solution in (("inverse", inverse), ("direct", direct)):
+    for problem, solution in solutions:
         named = signs_at(record, problem, joints)
         left = dict(enumerate(sign_meanings(record, problem)))
         for root in solution.roots:
             values = signs[own[problem, root.symbol][0]]
             match = [(k, s) for k in left for s in (1, -1) if np.all(named[:, k] == s * values)]
             if not match:
-                raise NotDerivedError(f"the sign of {root.quantity} is none by which the modes of {record.name} are named")
+                raise NotDerivedError(
+                    f"the sign of {root.quantity} is none by which the modes of {record.name} are named"
+                )
             k, sense = match[0]
             matched[problem, root.symbol] = left.pop(k), sense
         if left:
@@ -68,7 +73,9 @@ def _branches(
     rows = np.tile(choices, (len(poses), 1))
     roots = [name for name in names if name.startswith("inverse")]
     ns, p = Floats(), record.values
-    branch = form.inverse(ns, p, border.pose_components(record, many), SimpleNamespace(**dict(zip(roots, rows.T, strict=True))))
+    branch = form.inverse(
+        ns, p, border.pose_components(record, many), SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
+    )
     there = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
     joints = border.joint_values(record, form.joints(ns, p, branch.core))
     values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
@@ -76,5 +83,5 @@ def _branches(
     return values[there], signs
 
 
-def _radicands(form: ClosedForm, margins: dict[str, object]) -> list[object]:
+def _radicands(form: ClosedForm, margins: Mapping[str, Any]) -> list[Any]:
     return [margins[margin.name] for margin in form.inverse_margins if margin.signs]

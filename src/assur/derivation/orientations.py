@@ -1,4 +1,4 @@
-"""Orientations of links, and why: which do not turn, and which turn about one fixed direction.
+"""LinkOrientations of links, and why: which do not turn, and which turn about one fixed direction.
 
 Joints that cannot turn join links to bodies. A body that hangs on another by axes of one direction u has, against it,
 the orientation Rot(u, psi) C. If it hangs on it by axes of u and, by other joints, by axes of v as well, it cannot
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import sympy
 
-from assur.derivation.symbols import Symbols
+from assur.derivation.symbols import GivenSymbols
 from assur.errors import AssurError
 from assur.joint_graph.frames import frames
 from assur.joint_graph.tree import joint_graph
@@ -32,7 +32,7 @@ class NotDerivedError(AssurError):
 
 
 @dataclass(frozen=True)
-class Reason:
+class ConstraintReason:
     """Why a link does not turn: it hangs on another by axes along two directions.
 
     Attributes:
@@ -100,15 +100,15 @@ class _Way:
 
 
 @dataclass(frozen=True, eq=False)
-class Orientations:
+class LinkOrientations:
     """Orientation of each link, and of the crosses of universal joints, with the reasons of those that do not turn."""
 
     links: Mapping[str, Orientation]
-    reasons: tuple[Reason, ...]
+    reasons: tuple[ConstraintReason, ...]
 
 
-def orientations(symbols: Symbols) -> Orientations:
-    """Orientations of all links. Errors: NotDerivedError."""
+def orientations(symbols: GivenSymbols) -> LinkOrientations:
+    """LinkOrientations of all links. Errors: NotDerivedError."""
     return _Reading(symbols).orientations()
 
 
@@ -118,14 +118,14 @@ def cross_of(joint: Joint) -> str:
 
 
 class _Reading:
-    def __init__(self, symbols: Symbols) -> None:
+    def __init__(self, symbols: GivenSymbols) -> None:
         self.symbols, self.record, self.witness = symbols, symbols.record, symbols.witness
 
-    def orientations(self) -> Orientations:
+    def orientations(self) -> LinkOrientations:
         joints = [*self._of_joints(), *self._of_parallelograms()]
         if self.symbols.orientation is not None:
             joints.append(_Stiff(self.record.base, self.record.platform.link, self.symbols.orientation))
-        reasons: list[Reason] = []
+        reasons: list[ConstraintReason] = []
         bodies = self._bodies(joints)
         while (more := self._held_together(self._free(joints, bodies))) is not None:
             stiff, reason = more
@@ -148,13 +148,15 @@ class _Reading:
             for link, (own, inside) in bodies.items():
                 if own == body:
                     whole = self._tidy(product(constant, inside))
-                    line = self._line(link, whole, way.axis, hinge)
+                    line = self._line(link, whole, hinge)
                     links[link] = Orientation(whole, way.axis, numbers[self._carrier[body]], line, number, hinge)
         links |= self._rods(links, len(hinged))
         missing = [link for link in self.record.links if link not in links]
         if missing:
-            raise NotDerivedError(f"{', '.join(missing)}: neither fixed in orientation, nor turning about one direction")
-        return Orientations(links, tuple(reasons))
+            raise NotDerivedError(
+                f"{', '.join(missing)}: neither fixed in orientation, nor turning about one direction"
+            )
+        return LinkOrientations(links, tuple(reasons))
 
     def _of_joints(self) -> Iterator[_Stiff | _Hinge]:
         slices = joint_graph(self.record).slices
@@ -259,20 +261,22 @@ class _Reading:
 
     def _unturned(self, constant: Matrix, axis: Vector) -> Matrix:
         """C of Rot(u, psi) C without turns about u by what is given, which psi has in it."""
-        zero = {symbol: number for circle in self.symbols.circles for symbol, number in zip(circle, (1, 0), strict=True)}
+        zero = {
+            symbol: number for circle in self.symbols.circles for symbol, number in zip(circle, (1, 0), strict=True)
+        }
         a, b, c = (tuple(sympy.sympify(part).subs(zero) for part in row) for row in constant)
-        plain = self._tidy((a, b, c))  # type: ignore[arg-type]
+        plain = self._tidy((a, b, c))
         turned = apply(product(constant, transposed(plain)), axis)
         return plain if all(map(self.witness.is_zero, subtract(turned, axis))) else constant
 
-    def _held_together(self, free: Sequence[_Hinge]) -> tuple[_Stiff, Reason] | None:
+    def _held_together(self, free: Sequence[_Hinge]) -> tuple[_Stiff, ConstraintReason] | None:
         """Two bodies that turn against each other about two directions, so not at all."""
         for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
             for body, ways in self._ways(free, root, UNTURNED).items():
                 if len(ways) > 1:
                     first, second = ways[:2]
                     after = self._meeting(first, second, body)
-                    reason = Reason(body, root, first.axis, second.axis, first.joints, second.joints)
+                    reason = ConstraintReason(body, root, first.axis, second.axis, first.joints, second.joints)
                     return _Stiff(root, body, after, ()), reason
         return None
 
@@ -308,7 +312,7 @@ class _Reading:
                 hinged[turn.child] = way, hinge, self._tidy(product(way.constant, turn.after))
         return hinged
 
-    def _line(self, link: str, constant: Matrix, axis: Vector, hinge: Vector) -> Vector:
+    def _line(self, link: str, constant: Matrix, hinge: Vector) -> Vector:
         """The direction of a straight rod across its hinge, where psi and phi are zero."""
         points = [
             self._point_on(joint, link) for joint in self.record.joints.values() if link in (joint.parent, joint.child)
@@ -334,7 +338,8 @@ class _Reading:
         alone = [link for link in lines if link not in together]
         numbers = {link: number for number, link in enumerate(alone, start=first_number)}
         return {
-            link: Orientation(UNTURNED, line=line, rod=numbers[together.get(link, link)]) for link, line in lines.items()
+            link: Orientation(UNTURNED, line=line, rod=numbers[together.get(link, link)])
+            for link, line in lines.items()
         }
 
     def _point_on(self, joint: Joint, link: str) -> Vector:
@@ -385,5 +390,3 @@ def rods_of(record: MechanismRecord, group: GeneralisedJoint) -> tuple[str, str]
 def _near(record: MechanismRecord, group: GeneralisedJoint) -> list[str]:
     """The two joints on the parent's side."""
     return [name for name in group.joints if group.parent in (record.joints[name].parent, record.joints[name].child)]
-
-

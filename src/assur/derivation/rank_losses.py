@@ -46,7 +46,9 @@ def rank_losses(record: MechanismRecord, text: str) -> tuple[Group, ...]:
             group = frozenset(name for name, zero in vanishing.items() if zero[row])
             (kept if usual[row] else lost).add(group)
     smallest = [group for group in lost if not any(other < group for other in lost)]
-    return tuple(sorted(tuple(sorted(group)) for group in smallest if group and not any(group <= other for other in kept)))
+    return tuple(
+        sorted(tuple(sorted(group)) for group in smallest if group and not any(group <= other for other in kept))
+    )
 
 
 def _singular_places(record: MechanismRecord) -> Iterator[Solutions]:

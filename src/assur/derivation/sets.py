@@ -13,10 +13,12 @@ import sympy
 from assur.derivation.linear import Form, rank, solved
 from assur.derivation.loop_equations import Item
 from assur.derivation.orientations import NotDerivedError
-from assur.derivation.witness import Witness
+from assur.derivation.witness import ModularWitness
 
 
-def next_set(forms: Sequence[Form], left: Sequence[Item], witness: Witness) -> tuple[tuple[Item, ...], list[Form]]:
+def next_set(
+    forms: Sequence[Form], left: Sequence[Item], witness: ModularWitness
+) -> tuple[tuple[Item, ...], list[Form]]:
     """The smallest set among the items that are left, and the equations in which these alone are unknown.
 
     Errors:
@@ -34,7 +36,7 @@ def next_set(forms: Sequence[Form], left: Sequence[Item], witness: Witness) -> t
     raise NotDerivedError(f"what is given does not determine {names}")
 
 
-def _independent(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: Witness) -> list[Form]:
+def _independent(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> list[Form]:
     """Short equations first, and none that follows from those before it."""
     kept: list[Form] = []
     for form in sorted(forms, key=_length):

@@ -1,4 +1,4 @@
-"""The solution of one problem: sets in their order, lengths, the pose and every joint, as formulas one after another."""
+"""The solution of one problem: sets in their order, lengths and the pose, as formulas one after another."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from itertools import product as choices_of
 
 import sympy
 
-from assur.derivation.elimination import Definition, Root, Solved, solution
+from assur.derivation.elimination import Definition, Root, SolvedSet, solution
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
 from assur.derivation.loop_equations import Item, LoopEquations, loop_equations
-from assur.derivation.orientations import Orientations, orientations
+from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets import next_set
-from assur.derivation.symbols import Symbols
-from assur.derivation.witness import Witness
+from assur.derivation.symbols import GivenSymbols
+from assur.derivation.witness import ModularWitness
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
 
@@ -33,10 +33,10 @@ class AnalyticSolution:
         point: the platform's point, after these.
     """
 
-    symbols: Symbols
-    placed: Orientations
+    symbols: GivenSymbols
+    placed: LinkOrientations
     loops: LoopEquations
-    sets: tuple[Solved, ...]
+    sets: tuple[SolvedSet, ...]
     lengths: tuple[Definition, ...]
     point: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
 
@@ -60,7 +60,7 @@ class AnalyticSolution:
         return all(self._closes(signs) for signs in choices_of((1, -1), repeat=len(self.roots)))
 
     def _closes(self, signs: Sequence[int]) -> bool:
-        witness = Witness(1)
+        witness = ModularWitness(1)
         for cosine, sine in self.symbols.circles:
             witness.on_circle(cosine, sine)
         turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=True)}
@@ -80,24 +80,24 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     >>> analytic_solution(load_record("zeng2019"), "direct").branches
     8
     """
-    witness = Witness()
-    symbols = Symbols(record, problem, witness)
+    witness = ModularWitness()
+    symbols = GivenSymbols(record, problem, witness)
     placed = orientations(symbols)
     loops = loop_equations(symbols, placed)
     witness.home = home_numbers(symbols, placed, loops.items)
     lengths, forms = projected(sparse(loops.forms, witness), list(loops.lengths.values()), witness)
     sets = _sets(sparse([divided(form) for form in forms], witness), loops.items, witness, _names(record))
-    found = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
-    for own in found:
+    backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
+    for own in backward:
         witness.define(own.symbol, own.formula)
     x, y, z = (value_of(form) for form in loops.point)
-    return AnalyticSolution(symbols, placed, loops, sets, found, (x, y, z))
+    return AnalyticSolution(symbols, placed, loops, sets, backward, (x, y, z))
 
 
 def _sets(
-    forms: Sequence[Form], items: Sequence[Item], witness: Witness, taken: set[str]
-) -> tuple[Solved, ...]:
-    left, sets = list(items), []
+    forms: Sequence[Form], items: Sequence[Item], witness: ModularWitness, taken: set[str]
+) -> tuple[SolvedSet, ...]:
+    left, sets = list(items), list[SolvedSet]()
     while left:
         chosen, equations = next_set(forms, left, witness)
         sets.append(solution(len(sets) + 1, chosen, equations, witness, taken))

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy
 
-from assur.derivation.witness import Witness
+from assur.derivation.witness import ModularWitness
 from assur.joint_graph.geometry import Geometry, written_geometry
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
@@ -21,7 +21,7 @@ Circle = tuple[sympy.Symbol, sympy.Symbol]
 
 
 def circle_of(name: str) -> Circle:
-    """Symbols of the cosine and the sine of an angle."""
+    """GivenSymbols of the cosine and the sine of an angle."""
     return sympy.Symbol(f"cos_{name}", real=True), sympy.Symbol(f"sin_{name}", real=True)
 
 
@@ -31,7 +31,7 @@ def abs_of(symbol: sympy.Expr) -> sympy.Symbol:
 
 
 @dataclass(frozen=True, eq=False)
-class Symbols:
+class GivenSymbols:
     """What is known at first.
 
     Attributes:
@@ -42,7 +42,7 @@ class Symbols:
 
     record: MechanismRecord
     problem: Problem
-    witness: Witness
+    witness: ModularWitness
 
     @cached_property
     def parameters(self) -> dict[str, sympy.Symbol]:
@@ -80,7 +80,9 @@ class Symbols:
         """Cosine and sine of each angle that is given."""
         angles = [value for value in self.locked.values() if isinstance(value, tuple)]
         posed = self.record.platform.pose if self.problem == "inverse" else ()
-        return [(cosine, abs_of(sine)) for cosine, sine in angles] + [circle_of(name) for name in posed if name in ANGLES]
+        return [(cosine, abs_of(sine)) for cosine, sine in angles] + [
+            circle_of(name) for name in posed if name in ANGLES
+        ]
 
     @cached_property
     def place(self) -> dict[str, sympy.Symbol]:

@@ -56,7 +56,7 @@ class _Velocities:
         values, rows = solved(forms, self.passive, self.witness)
         for item in self.solution.loops.items:
             if item not in driven:
-                across = {self.rates[unknown]: unknown for unknown in item.unknowns}  # type: ignore[dict-item]
+                across = {self.rates[unknown]: unknown for unknown in item.unknowns}
                 rows.append(replaced(across, values, self.witness))
         _, rows = solved(rows, self.passive, self.witness)
         rows = [divided(self._alike(row)) for row in rows if row]
@@ -162,9 +162,9 @@ def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
 
 def _alone(matrix: sympy.Matrix) -> tuple[int, int] | None:
     """The place of an entry that is alone in its row or column."""
-    for lines, place in ((matrix.tolist(), lambda i, j: (i, j)), (matrix.T.tolist(), lambda i, j: (j, i))):
+    for upright, lines in ((False, matrix.tolist()), (True, matrix.T.tolist())):
         for i, line in enumerate(lines):
             entries = [j for j, entry in enumerate(line) if entry != 0]
             if len(entries) == 1:
-                return place(i, entries[0])
+                return (entries[0], i) if upright else (i, entries[0])
     return None

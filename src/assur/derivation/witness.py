@@ -21,15 +21,15 @@ TRIES = 200
 """Draws after which a root is taken not to exist; of k roots of roots one draw in 2^k has them all."""
 
 
-class NoRootError(ArithmeticError):
+class NoResidueRootError(ArithmeticError):
     """A radicand that has no root at what was drawn."""
 
 
-class Witness:
+class ModularWitness:
     """Values of symbols in F_p(i).
 
     >>> x, y = sympy.symbols("x y")
-    >>> Witness(1).is_zero((x + y) ** 2 - x**2 - 2 * x * y - y**2)
+    >>> ModularWitness(1).is_zero((x + y) ** 2 - x**2 - 2 * x * y - y**2)
     True
     """
 
@@ -52,7 +52,7 @@ class Witness:
         self._definitions.append((symbol, formula))
         try:
             self._values[symbol] = self.value(formula)
-        except NoRootError:
+        except NoResidueRootError:
             self._draw_again()
 
     def is_zero(self, formula: Any) -> bool:
@@ -60,7 +60,7 @@ class Witness:
         return self.value(sympy.sympify(formula)) == (0, 0)
 
     def value(self, formula: sympy.Expr) -> Element:
-        """The value of a formula. Errors: NoRootError."""
+        """The value of a formula. Errors: NoResidueRootError."""
         if formula not in self._values:
             self._values[formula] = self._worked_out(formula)
         return self._values[formula]
@@ -95,10 +95,10 @@ class Witness:
             try:
                 for symbol, formula in self._definitions:
                     self._values[symbol] = self.value(formula)
-            except NoRootError:
+            except NoResidueRootError:
                 continue
             return
-        raise NoRootError("no draw at which every radicand has a root")
+        raise NoResidueRootError("no draw at which every radicand has a root")
 
     def _draw_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
         p, t = self.field.p, below(self._random, 1, self.field.p)
@@ -155,13 +155,13 @@ class Witness:
         norm = (a * a + b * b) % p
         size = pow(norm, (p + 1) // 4, p)
         if size * size % p != norm:
-            raise NoRootError("a radicand without a root")
+            raise NoResidueRootError("a radicand without a root")
         half = pow(2, -1, p)
         for square in ((a + size) * half % p, (a - size) * half % p):
             real = pow(square, (p + 1) // 4, p)
             if real and real * real % p == square:
                 return real, b * half * pow(real, -1, p) % p
-        raise NoRootError("a radicand without a root")
+        raise NoResidueRootError("a radicand without a root")
 
     def _circle(self, angle: sympy.Expr) -> tuple[Element, Element]:
         """Cosine and sine of a sum of multiples of angles."""
@@ -176,8 +176,8 @@ class Witness:
 
     def _angle(self, angle: sympy.Expr, factor: sympy.Rational) -> tuple[Element, Element]:
         if angle == sympy.pi:
-            cosine, sine = self.field.cosine_and_sine(Fraction(int(factor.p), 2 * int(factor.q)))
-            return (cosine, 0), (sine, 0)
+            real, imaginary = self.field.cosine_and_sine(Fraction(int(factor.p), 2 * int(factor.q)))
+            return (real, 0), (imaginary, 0)
         share = angle * sympy.Rational(1, factor.q)  # the angle whose whole multiple is meant
         symbols = sympy.Function("circle_cos")(share), sympy.Function("circle_sin")(share)
         if symbols[0] not in self._values:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur.topology.counting.actuation import Actuation
     from assur.topology.counting.decoupling import Decoupling
     from assur.topology.screws.linkage import Linkage
-    from assur.topology.symbolic.derivation import Derivation
+    from assur.topology.symbolic.derivation import PocDerivation
 
 Route = Literal["both", "twists"]
 """By which routes a POC set is known: rules and twists, which agree, or twists alone where the rules refuse."""
@@ -97,7 +97,7 @@ class Topology:
     decoupling_refusal: str = ""
     modes: tuple[OperationModeFacts, ...] = ()
     notes: tuple[str, ...] = ()
-    derive: Callable[[], tuple[Derivation, ...]] = field(repr=False, default=tuple)
+    derive: Callable[[], tuple[PocDerivation, ...]] = field(repr=False, default=tuple)
     actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
 
@@ -141,7 +141,7 @@ class Topology:
         return True if all(answer.route == "both" for answer in known) else None
 
     @cached_property
-    def derivations(self) -> tuple[Derivation, ...]:
+    def derivations(self) -> tuple[PocDerivation, ...]:
         """Of the platform with its limbs; of the limbs alone where the rules refuse the platform."""
         return self.derive()
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from assur.results.plain_text import signed
 from assur.topology.facts import LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
-from assur.topology.symbolic.derivation import Derivation, DerivationStep
+from assur.topology.symbolic.derivation import DerivationStep, PocDerivation
 
 NEEDS = r"\usepackage{amsmath,amssymb}"
 XI = r"\dim\left\{\left(\bigcap_{i=1}^{j} M_{b_i}\right) \cup M_{b_{j+1}}\right\}"
@@ -107,7 +107,7 @@ def _poc_sets(topology: Topology) -> Iterator[Equation]:
         yield Equation("M_{Pa}", common + poc_matrix(topology.poc), "(2)", "the platform, by twists", topology.poc.dim)
 
 
-def _limb(number: int, limb: LimbFacts, part: Derivation | None) -> Iterator[Equation]:
+def _limb(number: int, limb: LimbFacts, part: PocDerivation | None) -> Iterator[Equation]:
     """The sets of its inner loops, and its own; another time if it has another one in the mechanism."""
     left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
     if part is None:

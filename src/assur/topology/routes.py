@@ -17,7 +17,7 @@ from assur.topology.screws.configurations import configurations
 from assur.topology.screws.limb_linkage import limb_linkage, limb_values
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.twists import dimensions, edges, motion_space
-from assur.topology.symbolic.derivation import Derivation
+from assur.topology.symbolic.derivation import PocDerivation
 from assur.topology.symbolic.intersection import parallel, xi_of_next
 from assur.topology.symbolic.motion import Mode, Motion, motion_of
 from assur.topology.symbolic.refusals import Refusal
@@ -40,7 +40,7 @@ class Rules:
     still: tuple[Motion | Refusal, ...]
     platform: Motion | Refusal
 
-    def derivations(self) -> tuple[Derivation, ...]:
+    def derivations(self) -> tuple[PocDerivation, ...]:
         """Of the platform with its limbs, or of the limbs where the rules refuse the platform."""
         whole = (self.platform,) if isinstance(self.platform, Motion) else self.free
         return tuple(motion.derive() for motion in whole if isinstance(motion, Motion) and motion.derive is not None)

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from assur.topology.notation import parse_chain, parse_chains
 from assur.topology.poc import Mark, PocSet
-from assur.topology.symbolic.derivation import Derivation, DerivationStep, counted, in_words, matrix, under
+from assur.topology.symbolic.derivation import DerivationStep, PocDerivation, counted, in_words, matrix, under
 from assur.topology.symbolic.intersection import parallel
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.union import serial
@@ -110,7 +110,7 @@ def test_a_platforms_derivation_ends_with_what_it_derives(limbs):
     motion = parallel([serial(chain) for chain in parse_chains(limbs)])
     if isinstance(motion, Motion):
         derivation = motion.derivation
-        assert isinstance(derivation, Derivation)
+        assert isinstance(derivation, PocDerivation)
         assert derivation.whole.result == motion.poc
         assert len(derivation.parts) == len(limbs)
         for style in ("unicode", "ascii", "latex"):

@@ -12,7 +12,7 @@ from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
 from assur.topology.latex import Equation, equations, step_latex
-from assur.topology.symbolic.derivation import Derivation
+from assur.topology.symbolic.derivation import PocDerivation
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 _DECIMALS = re.compile(r"-?\d+\.\d{5,}")
@@ -172,7 +172,7 @@ def _derivation(topology: Topology) -> list[Result]:
     return [Table("The derivation, step by step", columns, rows, folded=True)] if rows else []
 
 
-def _steps(derivation: Derivation) -> list[tuple[Cell, ...]]:
+def _steps(derivation: PocDerivation) -> list[tuple[Cell, ...]]:
     rows = [row for part in derivation.parts for row in _steps(part)]
     for step in derivation.steps:
         formula = PrintedFormula(inline(latex_mathml(step_latex(step)), step.text()))

@@ -7,12 +7,14 @@ from collections.abc import Sequence
 from assur.topology.poc import PocSet
 from assur.topology.symbolic.base_point import poc_set
 from assur.topology.symbolic.blocks import Structure
-from assur.topology.symbolic.derivation import Derivation, DerivationStep, counted, in_words
+from assur.topology.symbolic.derivation import DerivationStep, PocDerivation, counted, in_words
 from assur.topology.symbolic.meeting import GENERAL
 from assur.topology.symbolic.operands import Operand, joints, operands
 
 
-def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, ...], conditions: str) -> Derivation:
+def chain_derivation(
+    structure: Structure, name: str, parts: tuple[PocDerivation, ...], conditions: str
+) -> PocDerivation:
     """How the set of a chain's end link follows from those of its joints.
 
     O' is any point of the end link where that makes no difference, as in the papers, and else on the last axis.
@@ -35,7 +37,7 @@ def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, .
         whole = inside[0]
     origin = "at any point of the end link" if point == GENERAL else "on the last axis"
     said = f"so the end link has {in_words(result)}{conditions}"
-    return Derivation(name, origin, parts, whole, (*inside, *between), said)
+    return PocDerivation(name, origin, parts, whole, (*inside, *between), said)
 
 
 def _inside(operand: Operand, poc: PocSet, point: int) -> list[DerivationStep]:

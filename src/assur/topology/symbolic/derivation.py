@@ -53,7 +53,7 @@ class DerivationStep:
 
 
 @dataclass(frozen=True)
-class Derivation:
+class PocDerivation:
     """Steps and what follows from them.
 
     Attributes:
@@ -67,7 +67,7 @@ class Derivation:
 
     of: str
     origin: str
-    parts: tuple[Derivation, ...]
+    parts: tuple[PocDerivation, ...]
     whole: DerivationStep
     steps: tuple[DerivationStep, ...]
     conclusion: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from assur.topology.poc import PocSet
-from assur.topology.symbolic.derivation import Derivation, DerivationStep, counted, in_words, under
+from assur.topology.symbolic.derivation import DerivationStep, PocDerivation, counted, in_words, under
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
 
@@ -13,7 +13,7 @@ Carried = Callable[[Sequence[Motion]], Motion | Refusal]
 """The platform's motion on some limbs."""
 
 
-def limb_derivation(limbs: Sequence[Motion], carried: Carried, name: str, at: str = "") -> Derivation:
+def limb_derivation(limbs: Sequence[Motion], carried: Carried, name: str, at: str = "") -> PocDerivation:
     """How the set of the platform follows from those of its limbs, at one common point O' of the platform."""
     motions = [carried(limbs[: count + 1]) for count in range(len(limbs))]
     steps = []
@@ -28,7 +28,7 @@ def limb_derivation(limbs: Sequence[Motion], carried: Carried, name: str, at: st
     conditions = motions[-1].conditions if isinstance(motions[-1], Motion) else ()
     said = f"so the platform has {in_words(result)}{under(conditions)}"
     origin = "where the last axes of the limbs meet" if at else "at a general point of the platform"
-    return Derivation(name, origin, parts, whole, tuple(steps), said)
+    return PocDerivation(name, origin, parts, whole, tuple(steps), said)
 
 
 def _name(limb: Motion, index: int) -> str:

@@ -15,7 +15,7 @@ from assur.topology.symbolic.base_point import poc_set
 from assur.topology.symbolic.blocks import Structure, mirrored
 from assur.topology.symbolic.bundles import bundles
 from assur.topology.symbolic.chain_steps import chain_derivation
-from assur.topology.symbolic.derivation import Derivation, DerivationStep, under
+from assur.topology.symbolic.derivation import DerivationStep, PocDerivation, under
 from assur.topology.symbolic.elementary import Elementary, Turn
 from assur.topology.symbolic.helices import coupled
 from assur.topology.symbolic.orientations import EVERY, UNTURNED, Orientations, held, orientations
@@ -58,7 +58,7 @@ class Limb:
     conditions: tuple[str, ...] = ()
     centre: str = ""
     labels: frozenset[str] = frozenset()
-    parts: Callable[[], tuple[Derivation, ...]] = field(default=tuple, repr=False, compare=False)
+    parts: Callable[[], tuple[PocDerivation, ...]] = field(default=tuple, repr=False, compare=False)
     name: str = ""
 
 
@@ -92,7 +92,7 @@ class Motion:
     structure: Structure | None = None
     given: PocSet = AT_REST
     helical: bool = False
-    derive: Callable[[], Derivation] | None = field(default=None, repr=False, compare=False)
+    derive: Callable[[], PocDerivation] | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def poc(self) -> PocSet:
@@ -156,7 +156,7 @@ class Motion:
         return self.rotations.dim == 2 and not self.rotations.contains(axis)
 
     @property
-    def derivation(self) -> Derivation:
+    def derivation(self) -> PocDerivation:
         """The steps from joints or limbs to this motion."""
         if self.derive is None:
             raise ValueError("this motion was not derived")
@@ -215,5 +215,5 @@ def lone_helix(turn: Turn, axis: Vector) -> Motion:
         freedoms=1,
         given=poc,
         helical=True,
-        derive=lambda: Derivation(turn.name, "on the axis", (), step, (), said),
+        derive=lambda: PocDerivation(turn.name, "on the axis", (), step, (), said),
     )

@@ -1,0 +1,89 @@
+"""How the answer of `assur derive` reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from rich.console import RenderableType
+
+from assur.cli import exit_codes
+from assur.cli.options import Outcome
+from assur.cli.output import Verbatim, heading
+from assur.cli.paths import output_file
+from assur.derivation.derivation import derive
+from assur.derivation.linear import value_of
+from assur.derivation.orientations import NotDerivedError
+from assur.derivation.reasons import sentences
+from assur.derivation.solution import AnalyticSolution, analytic_solution
+from assur.errors import UsageError
+from assur.kinematics.modes import Problem
+from assur.mechanism import Mechanism
+from assur.results.answers.derivation import DerivationAnswer, DerivedProblem, DerivedSet
+from assur.results.files import write_whole
+
+
+def outcome(record: Mechanism, problem: str, output: str | None) -> Outcome:
+    """What was derived, as data and for a person; written where a file is named."""
+    path = None if output is None else output_file(output, (".py",))
+    if path is not None and problem != "both":
+        raise UsageError("a closed form has both problems", hint="leave --problem out")
+    asked: tuple[Problem, ...] = ("direct", "inverse") if problem == "both" else (problem,)  # type: ignore[assignment]
+    parts = tuple(_derived(record, name) for name in asked)
+    fine = all(part.status == "derived" for part in parts)
+    if path is not None and fine:
+        write_whole(path, derive(record).closed_form())
+    data = DerivationAnswer(record.name, parts, str(path) if path is not None and fine else None)
+    return Outcome(data, lambda: _shown(data), exit_code=exit_codes.FINE if fine else exit_codes.UNDECIDED)
+
+
+def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
+    try:
+        solution = analytic_solution(record, problem)
+    except NotDerivedError as error:
+        return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), {})
+    sets = tuple(
+        DerivedSet(
+            tuple(item.name for item in part.items),
+            tuple(f"{value_of(form)} = 0" for form in part.equations),
+            tuple(f"{value_of(form)} = 0" for form in part.lines),
+            tuple(f"{condition} != 0" for condition in part.conditions),
+            {own.symbol.name: str(own.formula) for own in part.definitions},
+            2 ** len(part.roots),
+        )
+        for part in solution.sets
+    )
+    reasons = tuple(sentences(solution.placed))
+    return DerivedProblem(
+        problem, "derived", "", solution.branches, solution.closes(), reasons, sets, dict(_results(solution))
+    )
+
+
+def _results(solution: AnalyticSolution) -> Iterator[tuple[str, str]]:
+    if solution.symbols.problem == "inverse":
+        yield from ((own.symbol.name, str(own.formula)) for own in solution.lengths)
+    else:
+        yield from zip("xyz", map(str, solution.point), strict=True)
+
+
+def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
+    for part in data.problems:
+        if part.status == "derived":
+            yield heading(f"{data.mechanism}, {part.problem}: {part.branches} branches")
+            yield from (f"{k}. {text}" for k, text in enumerate(part.reasons, start=1))
+            for own in part.sets:
+                yield ""
+                yield f"{' and '.join(own.links)}: {own.roots} roots"
+                yield from (Verbatim(f"    {text}") for text in (*own.equations, *own.lines))
+                yield from (Verbatim(f"    where {text}") for text in own.conditions)
+                yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
+            yield ""
+            yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
+            proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
+            yield f"{proved}, modulo a prime of 160 bits"
+        else:
+            yield heading(f"{data.mechanism}, {part.problem}: not derived")
+            yield part.why
+        yield ""
+    if data.closed_form is not None:
+        yield f"written: {data.closed_form}"
+        yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"

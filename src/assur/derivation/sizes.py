@@ -1,0 +1,82 @@
+"""Sizes of quantities: the scales against which a closed form judges zero."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+
+from assur.derivation.solution import AnalyticSolution
+from assur.model.pose import LENGTHS
+
+
+@dataclass(frozen=True, eq=False)
+class Sizes:
+    """How large quantities of a mechanism are, and in which power of the length unit.
+
+    Attributes:
+        solution: of the inverse problem.
+        inputs: those of the direct problem that are lengths.
+    """
+
+    solution: AnalyticSolution
+    inputs: frozenset[sympy.Symbol]
+
+    @cached_property
+    def reference(self) -> tuple[str, float]:
+        """The largest length among the dimensions."""
+        record = self.solution.symbols.record
+        lengths = {
+            name: abs(parameter.value) for name, parameter in record.parameters.items()
+            if parameter.unit == record.unit and parameter.sign == "positive" and not parameter.drawn_only
+        }  # fmt: skip
+        name = max(lengths, key=lambda own: lengths[own])
+        return name, lengths[name]
+
+    @cached_property
+    def lengths(self) -> set[sympy.Symbol]:
+        """GivenSymbols that are lengths."""
+        record = self.solution.symbols.record
+        parameters = self.solution.symbols.parameters
+        own = {parameters[name] for name, parameter in record.parameters.items() if parameter.unit == record.unit}
+        own |= {sympy.Symbol(name, real=True) for name in LENGTHS} | {*self.solution.loops.lengths.values()}
+        return own | self.inputs
+
+    def unit(self, value: sympy.Expr) -> int:
+        """Power of the length unit, by a change of all lengths."""
+        factor = 2.0
+        numbers = {symbol: 0.3 + 0.1 * k for k, symbol in enumerate(sorted(value.free_symbols, key=str))}
+        larger = {symbol: number * (factor if symbol in self.lengths else 1.0) for symbol, number in numbers.items()}
+        share = complex(value.evalf(subs=larger)) / complex(value.evalf(subs=numbers))
+        return int(sympy.log(abs(share), 2).round())
+
+    def scale(self, value: sympy.Expr) -> str:
+        """The sum of the magnitudes of its terms over a power of the largest length."""
+        name, length = self.reference
+        unit = self.unit(value)
+        size = self._size(value) / length**unit
+        factors = [name] * max(unit, 0)
+        number = f"{size:.2g}"
+        plain = number if "e" not in number else f"{size:.6f}"
+        return "*".join([plain, *factors]) + "".join(f"/{name}" for _ in range(-min(unit, 0)))
+
+    def _size(self, value: sympy.Expr) -> float:
+        if value.is_Add:
+            return sum(map(self._size, value.args))
+        if value.is_Mul:
+            size = 1.0
+            for part in value.args:
+                size *= self._size(part)
+            return size
+        if value.is_Pow:
+            return float(self._size(value.base) ** float(value.exp))
+        if value.is_Symbol:
+            return self._of_symbol(value)
+        return abs(float(value))
+
+    def _of_symbol(self, symbol: sympy.Symbol) -> float:
+        record = self.solution.symbols.record
+        if symbol.name in record.parameters:
+            return abs(record.parameters[symbol.name].inside)
+        return self.reference[1] if symbol in self.lengths else 1.0

@@ -1,0 +1,41 @@
+"""`assur derive`: formulas in words and as data, a file that `check` takes, and what resists by its name."""
+
+import json
+import shutil
+
+import pytest
+
+from assur.cli.main import main
+from assur.model.registry import load_record
+
+
+def test_it_prints_reasons_before_equations_and_the_sets_in_their_order(capsys):
+    assert main(["derive", "zeng2019", "--problem", "direct"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("zeng2019, direct: 8 branches")
+    places = [text.index(part) for part in ("link11 hangs on base", "link9 and link10: 2 roots", "link4a: 2 roots")]
+    assert places == sorted(places)
+    assert "every branch closes every loop" in text
+
+
+def test_what_resists_is_named_with_exit_code_5_and_nothing_is_written(tmp_path, capsys):
+    target = tmp_path / "closed_form.py"
+    assert main(["derive", "planar_3rrr", "-o", str(target), "--json"]) == 5
+    answer = json.loads(capsys.readouterr().out)
+    direct, inverse = answer["problems"]
+    assert (direct["status"], inverse["status"]) == ("not_derived", "derived")
+    assert "platform" in direct["why"]
+    assert answer["closed_form"] is None
+    assert not target.exists()
+
+
+def test_the_file_that_is_written_makes_a_mechanism_of_one_s_own_exact(tmp_path, capsys):
+    shutil.copy(load_record("fivebar").file, tmp_path / "mechanism.toml")
+    assert main(["derive", str(tmp_path), "-o", str(tmp_path / "closed_form.py")]) == 0
+    assert main(["check", str(tmp_path)]) == 0
+    assert "the formulas close the joint graph: exact" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", [["--problem", "neither"], ["--problem", "direct", "-o", "closed_form.py"]])
+def test_words_that_make_no_sense_are_refused(words):
+    assert main(["derive", "fivebar", *words]) == 2
