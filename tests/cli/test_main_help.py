@@ -6,7 +6,7 @@ from assur.cli.application import application
 COMMANDS = (
     *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "certify"),
     *("verify", "audit", "figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize"),
-    *("aspects", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),
+    *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),
 )
 
 

@@ -34,13 +34,13 @@ def both(request, tmp_path_factory):
 
 
 def test_it_agrees_with_the_joint_graph_exactly(both):
-    _, derived = both
+    derived = both[1]
     assert problems(derived, IN_FULL)[0] == ()
     assert exactness(derived).proved
 
 
 def test_answers_and_names_are_those_of_the_hand_written_form(both):
-    written, derived = both
+    written = both[0]
     length = characteristic_length(written)
     home = pose_of(written, home_values(written))
     scales = np.array([0.05 * length if name in LENGTHS else 0.05 for name in written.platform.pose])
@@ -48,16 +48,14 @@ def test_answers_and_names_are_those_of_the_hand_written_form(both):
     compared = 0
     for pose in poses:
         first, second = (inverse(record, pose, method="closed form") for record in both)
-        assert {item.mode for item in first} == {item.mode for item in second}
-        for item in first:
-            (other,) = [own for own in second if own.mode == item.mode]
-            assert np.allclose(item.inputs, other.inputs, rtol=0, atol=1e-9 * length)
-            poses_back = [
-                {own.mode: own.pose for own in direct(record, item.inputs, method="closed form")} for record in both
-            ]
-            assert poses_back[0].keys() == poses_back[1].keys()
-            for mode, value in poses_back[0].items():
-                assert np.allclose(value, poses_back[1][mode], rtol=0, atol=1e-6 * length)
+        modes = [{own.mode: own.inputs for own in answer} for answer in (first, second)]
+        assert modes[0].keys() == modes[1].keys()
+        for mode, inputs in modes[0].items():
+            assert np.allclose(inputs, modes[1][mode], rtol=0, atol=1e-9 * length)
+        for inputs in list(modes[0].values())[:1]:
+            back = [{own.mode: own.pose for own in direct(record, inputs, method="closed form")} for record in both]
+            assert back[0].keys() == back[1].keys()
+            for mode, value in back[0].items():
+                assert np.allclose(value, back[1][mode], rtol=0, atol=1e-6 * length)
             compared += 1
-            break
     assert compared >= 8

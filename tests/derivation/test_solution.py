@@ -3,7 +3,7 @@
 import pytest
 import sympy
 
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import analytic_solution
 from assur.model.registry import load_record
 
@@ -28,7 +28,7 @@ def test_every_branch_of_a_tower_closes_every_loop(name):
 
 def test_the_paper_s_order_its_special_constraint_and_its_self_motion_are_found():
     solution = analytic_solution(load_record("zeng2019"), "direct")
-    sets = [{item.name for item in part.items} for part in solution.sets]
+    sets = [{own.name for own in part.directions} for part in solution.sets]
     assert sets == [{"link9", "link10"}, {"link4a"}, {"link12", "link7a"}]
     known = {own.symbol: own.formula for own in solution.definitions}
     (condition,) = solution.sets[0].conditions

@@ -12,7 +12,7 @@ from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
 from assur.derivation.derivation import derive
 from assur.derivation.linear import value_of
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import UsageError
@@ -43,7 +43,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), {})
     sets = tuple(
         DerivedSet(
-            tuple(item.name for item in part.items),
+            tuple(direction.name for direction in part.directions),
             tuple(f"{value_of(form)} = 0" for form in part.equations),
             tuple(f"{value_of(form)} = 0" for form in part.lines),
             tuple(f"{condition} != 0" for condition in part.conditions),

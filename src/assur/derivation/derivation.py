@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_text import ClosedFormText
 from assur.derivation.mode_signs import root_signs
 from assur.derivation.rank_losses import rank_losses
@@ -21,7 +22,8 @@ class Derivation:
 
     def closed_form(self) -> str:
         """The file `closed_form.py`. Errors: NotDerivedError."""
-        plain = ClosedFormText(self.direct, self.inverse, root_signs(self.direct, self.inverse))
+        signs = root_signs(self.direct, self.inverse)
+        plain = ClosedFormText(ClosedFormFormulas(self.direct, self.inverse, signs))
         return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
 
 

@@ -1,8 +1,8 @@
-"""One set solved: every item by that one whose two roots are left, and these by a line that meets a circle or a sphere.
+"""One set solved: all its directions by that one whose two roots are left, these by a line and a circle or a sphere.
 
-All unknowns but those of one item follow from the linear equations. The quadrics of the others, less multiples of its
-own, are then linear too: two circles meet on a line, three spheres on one. A factor that all coefficients of such an
-equation share is divided out and kept as a condition: where it vanishes, the equation says nothing.
+All unknowns but those of one direction follow from the linear equations. The quadrics of the others, less multiples of
+its own, are then linear too: two circles meet on a line, three spheres on one. A factor that all coefficients of such
+an equation share is divided out and kept as a condition: where it vanishes, the equation says nothing.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import sympy
 
 from assur.derivation.linear import ONE, Form, divided, form_of, never_zero, rank, solved, tidy, value_of
-from assur.derivation.loop_equations import Item
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
 
@@ -44,31 +44,40 @@ class SolvedSet:
     """One set, solved.
 
     Attributes:
-        items: what was solved for; the first is the one whose two roots are left.
+        directions: what was solved for; the first is the one whose two roots are left.
         equations: linear in the unknowns, as the loops give them.
         lines: linear equations that the quadrics give.
         conditions: what was divided by, and must not vanish.
-        definitions: symbols in the order of computation, those of the items last.
+        definitions: symbols in the order of computation, those of the directions last.
         roots: the choices of two.
     """
 
-    items: tuple[Item, ...]
+    directions: tuple[UnknownDirection, ...]
     equations: tuple[Form, ...]
     lines: tuple[Form, ...]
     conditions: tuple[sympy.Expr, ...]
     definitions: tuple[Definition, ...]
     roots: tuple[Root, ...]
 
+    @property
+    def name(self) -> str:
+        """The links that are solved for."""
+        return " and ".join(direction.name for direction in self.directions)
+
 
 def solution(
-    number: int, items: Sequence[Item], equations: Sequence[Form], witness: ModularWitness, taken: set[str]
+    number: int,
+    directions: Sequence[UnknownDirection],
+    equations: Sequence[Form],
+    witness: ModularWitness,
+    taken: set[str],
 ) -> SolvedSet:
-    """A set solved for its items. Errors: NotDerivedError, where more than two roots are left."""
-    for base in items:
-        others = [unknown for item in items if item is not base for unknown in item.unknowns]
+    """A set solved for its directions. Errors: NotDerivedError, where more than two roots are left."""
+    for base in directions:
+        others = [unknown for direction in directions if direction is not base for unknown in direction.unknowns]
         if rank(equations, others, witness) == len(others):
-            return _Set(number, base, items, equations, witness, taken).solved()
-    names = " and ".join(item.name for item in items)
+            return _Set(number, base, directions, equations, witness, taken).solved()
+    names = " and ".join(direction.name for direction in directions)
     raise NotDerivedError(f"{names} belong together: {len(equations)} linear equations")
 
 
@@ -76,14 +85,14 @@ class _Set:
     def __init__(
         self,
         number: int,
-        base: Item,
-        items: Sequence[Item],
+        base: UnknownDirection,
+        directions: Sequence[UnknownDirection],
         equations: Sequence[Form],
         witness: ModularWitness,
         taken: set[str],
     ) -> None:
         self.number, self.base, self.witness = number, base, witness
-        self.others = [item for item in items if item is not base]
+        self.others = [direction for direction in directions if direction is not base]
         self.definitions: list[Definition] = []
         self.conditions: list[sympy.Expr] = []
         self.roots: list[Root] = []
@@ -98,10 +107,10 @@ class _Set:
         return {**form, ONE: self._named(next(self.letters), known)}
 
     def solved(self) -> SolvedSet:
-        unknowns = [unknown for item in self.others for unknown in item.unknowns]
+        unknowns = [unknown for direction in self.others for unknown in direction.unknowns]
         values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
         given = len(lines)
-        lines += [line for item in self.others if (line := self._line(item, values)) is not None]
+        lines += [line for direction in self.others if (line := self._line(direction, values)) is not None]
         lines = self._independent(lines)
         (self._circle if self.base.kind == "circle" else self._sphere)(lines)
         for unknown in unknowns:
@@ -115,15 +124,15 @@ class _Set:
             tuple(self.roots),
         )
 
-    def _line(self, item: Item, values: dict[sympy.Symbol, Form]) -> Form | None:
-        """What an item's quadric says beside the base's: a linear equation of the base's unknowns."""
+    def _line(self, direction: UnknownDirection, values: dict[sympy.Symbol, Form]) -> Form | None:
+        """What an direction's quadric says beside the base's: a linear equation of the base's unknowns."""
         own = self.base.unknowns
-        quadric = sympy.expand(sum(value_of(values[unknown]) ** 2 for unknown in item.unknowns) - 1)
+        quadric = sympy.expand(sum(value_of(values[unknown]) ** 2 for unknown in direction.unknowns) - 1)
         square = quadric.coeff(own[0], 2)
         quadric = sympy.expand(quadric - square * self.base.quadric)
         left = [quadric.coeff(a, 2) if a == b else quadric.coeff(a, 1).coeff(b, 1) for a in own for b in own]
         if not all(map(self.witness.is_zero, left)):
-            raise NotDerivedError(f"the quadrics of {self.base.name} and {item.name} have no line in common")
+            raise NotDerivedError(f"the quadrics of {self.base.name} and {direction.name} have no line in common")
         linear = sum(quadric.coeff(a, 1).subs(dict.fromkeys(own, 0)) * a for a in own)
         form = form_of(linear + quadric.subs(dict.fromkeys(own, 0)), own, self.witness)
         return self._divided(form) if form else None

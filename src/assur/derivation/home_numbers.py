@@ -6,7 +6,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from assur.derivation.loop_equations import Item
+from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.symbols import GivenSymbols, circle_of
 from assur.joint_graph.frames import frames
@@ -17,8 +17,10 @@ from assur.model.pose import ANGLES
 FloatArray = NDArray[np.float64]
 
 
-def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, items: tuple[Item, ...]) -> dict[sympy.Symbol, float]:
-    """Symbol -> its value at home: dimensions, inputs, coordinates of the pose, unknowns of items."""
+def home_numbers(
+    symbols: GivenSymbols, placed: LinkOrientations, directions: tuple[UnknownDirection, ...]
+) -> dict[sympy.Symbol, float]:
+    """Symbol -> its value at home: dimensions, inputs, coordinates of the pose, unknowns of directions."""
     record, values = symbols.record, home_values(symbols.record)
     numbers: dict[sympy.Symbol, float] = {
         symbol: record.parameters[name].inside for name, symbol in symbols.parameters.items()
@@ -29,12 +31,12 @@ def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, items: tuple[I
     for name, value in zip(record.platform.pose, pose.pose_of(record, values), strict=True):
         numbers |= _named(name, float(value), name in ANGLES)
     rotations = frames(record, values)
-    for item in items:
-        link = next(link for link in item.links if link in record.links)
+    for direction in directions:
+        link = next(link for link in direction.links if link in record.links)
         own = placed.links[link]
         constant = _array(own.constant, numbers)
         turned = rotations[link][0] @ constant.T
-        if item.kind == "rod":
+        if direction.kind == "rod":
             parts = turned @ _array(own.line, numbers)
         else:
             axis = _array(own.axis, numbers)
@@ -44,7 +46,7 @@ def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, items: tuple[I
                 @ np.array([turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]])
             )
             parts = np.array([(np.trace(turned) - 1.0) / 2.0, sine])
-        numbers |= dict(zip(item.unknowns, map(float, parts), strict=True))
+        numbers |= dict(zip(direction.unknowns, map(float, parts), strict=True))
     return numbers
 
 

@@ -9,8 +9,10 @@ from typing import Any
 
 import sympy
 
-from assur.derivation.loop_equations import Item
-from assur.derivation.orientations import NotDerivedError, Orientation, cross_of
+from assur.derivation.hinges import cross_of
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.orientations import Orientation
 from assur.derivation.solution import AnalyticSolution
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED, about
@@ -153,7 +155,9 @@ class _Joints:
 
     @property
     def _circles(self) -> list[Pair]:
-        pairs: list[Any] = [item.unknowns for item in self.solution.loops.items if item.kind == "circle"]
+        pairs: list[Any] = [
+            direction.unknowns for direction in self.solution.loops.directions if direction.kind == "circle"
+        ]
         pairs += [pair for own in self.pointings for pair in (own.carrier, own.hinge)]
         return pairs + self.solution.symbols.circles
 
@@ -178,9 +182,11 @@ class _Joints:
         return c * start[0] + s * start[1], s * start[0] - c * start[1]
 
     def _circle(self, number: int) -> Pair:
-        for item in self.solution.loops.items:
-            if item.kind == "circle" and any(self.solution.placed.links[link].circle == number for link in item.links):
-                return item.unknowns[0], item.unknowns[1]
+        for direction in self.solution.loops.directions:
+            if direction.kind == "circle" and any(
+                self.solution.placed.links[link].circle == number for link in direction.links
+            ):
+                return direction.unknowns[0], direction.unknowns[1]
         for rod, own in self._carriers.items():
             if own == number:
                 return self._pointing[rod].carrier
@@ -199,23 +205,30 @@ class _Joints:
         for own in self.solution.placed.links.values():
             if own.rod is None or own.hinge is None or own.axis is None or own.rod in pointings:
                 continue
-            item = self._rod(own.rod)
+            direction = self._rod(own.rod)
             across = cross(own.hinge, own.axis)
             ahead, beside, along = (
-                sympy.expand(dot(part, item.unknowns)) for part in (across, own.hinge, scaled(own.axis, -1))
+                sympy.expand(dot(part, direction.unknowns)) for part in (across, own.hinge, scaled(own.axis, -1))
             )
             start = dot(own.line or (0, 0, 0), across)
             back = witness.at_home(start) < 0.0
-            names = (f"cos_{item.name}_carrier", f"sin_{item.name}_carrier", f"cos_{item.name}", f"sin_{item.name}")
+            names = (
+                f"cos_{direction.name}_carrier",
+                f"sin_{direction.name}_carrier",
+                f"cos_{direction.name}",
+                f"sin_{direction.name}",
+            )
             c, s, k, t = sympy.symbols(names, real=True)
             pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back)
         self.pointings += pointings.values()
         return pointings
 
-    def _rod(self, number: int) -> Item:
+    def _rod(self, number: int) -> UnknownDirection:
         links = self.solution.placed.links
         return next(
-            item for item in self.solution.loops.items if item.kind == "rod" and links[item.links[0]].rod == number
+            direction
+            for direction in self.solution.loops.directions
+            if direction.kind == "rod" and links[direction.links[0]].rod == number
         )
 
     def _ball(self, joint: Joint) -> BallRotation:
@@ -229,6 +242,6 @@ class _Joints:
         if own.rod is None or own.hinge is not None:
             a, b, c = (tuple(map(self._reduced, row)) for row in self._rotation(link))
             return UNTURNED if (a, b, c) == UNTURNED else (a, b, c)
-        item = self._rod(own.rod)
-        self.tilts.setdefault(own.rod, Tilt(f"tilt_{item.name}", own.line or (0, 0, 0), item.unknowns))
+        direction = self._rod(own.rod)
+        self.tilts.setdefault(own.rod, Tilt(f"tilt_{direction.name}", own.line or (0, 0, 0), direction.unknowns))
         return self.tilts[own.rod].name

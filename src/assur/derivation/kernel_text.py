@@ -15,8 +15,9 @@ WIDTH = 116
 class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no types
     """Prints formulas of a mechanism.
 
-    >>> KernelPrinter({"l2"}).doprint(sympy.sqrt(3) * sympy.Symbol("l2") * sympy.Symbol("x") ** 2 / 2)
-    'ns.sqrt(3)*p.l2*x**2/2'
+    >>> from sympy import Symbol, sqrt
+    >>> KernelPrinter({"l2"}).doprint(sqrt(3) * Symbol("l2") / Symbol("x"))
+    'ns.sqrt(3)*p.l2/x'
     """
 
     def __init__(self, parameters: Iterable[str]) -> None:

@@ -136,7 +136,7 @@ def sparse(forms: Sequence[Form], witness: ModularWitness) -> list[Form]:
 
     >>> x, y, z = sympy.symbols("x y z")
     >>> sparse([{x: ONE, y: ONE}, {x: ONE, y: ONE, z: ONE}], ModularWitness())
-    [{x: 1, y: 1}, {z: 1}]
+    [{z: -1}, {x: 1, y: 1}]
     """
     left = [form for form in forms if form]
     while (better := _shorter(left, witness)) is not None:

@@ -2,7 +2,7 @@
 
 A loop is a sum of vectors from joint to joint, each fixed in a link. One in a link that turns about u is
 w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction. What is not linear belongs to
-an item alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
+one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from typing import Literal
 import sympy
 
 from assur.derivation.linear import Form, form_of
-from assur.derivation.orientations import LinkOrientations, NotDerivedError, Orientation
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED
@@ -24,7 +25,7 @@ from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtr
 
 
 @dataclass(frozen=True)
-class Item:
+class UnknownDirection:
     """What is unknown of a link: cosine and sine of an angle, or the components of a rod's direction.
 
     Attributes:
@@ -56,14 +57,14 @@ class LoopEquations:
 
     Attributes:
         forms: linear equations, each zero.
-        items: unknowns of links that turn, and of rods.
+        directions: unknowns of links that turn, and of rods.
         lengths: index in the joint values -> symbol of a length that is sought.
         point: the platform's point as linear forms.
         directions: link -> vectors of it, as functions of the unknowns.
     """
 
     forms: tuple[Form, ...]
-    items: tuple[Item, ...]
+    directions: tuple[UnknownDirection, ...]
     lengths: Mapping[int, sympy.Symbol]
     point: tuple[Form, Form, Form]
 
@@ -78,8 +79,8 @@ class _Loops:
         self.symbols, self.record, self.placed = symbols, symbols.record, placed
         self.graph = joint_graph(self.record)
         self.lengths: dict[int, sympy.Symbol] = {}
-        self.circles = {k: self._item("circle", links) for k, links in self._numbered("circle").items()}
-        self.rods = {k: self._item("rod", links) for k, links in self._numbered("rod").items()}
+        self.circles = {k: self._unknown_direction("circle", links) for k, links in self._numbered("circle").items()}
+        self.rods = {k: self._unknown_direction("rod", links) for k, links in self._numbered("rod").items()}
 
     def equations(self) -> LoopEquations:
         point: dict[str, tuple[Vector, Vector]] = {self.record.base: ((0, 0, 0), (0, 0, 0))}
@@ -97,11 +98,13 @@ class _Loops:
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
         used = {symbol for row in (*rows, *platform) for symbol in sympy.sympify(row).free_symbols}
-        items = [item for item in (*self.circles.values(), *self.rods.values()) if used & {*item.unknowns}]
-        unknowns = [*self.lengths.values(), *(unknown for item in items for unknown in item.unknowns)]
+        directions = [
+            direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
+        ]
+        unknowns = [*self.lengths.values(), *(unknown for direction in directions for unknown in direction.unknowns)]
         forms = (form_of(row, unknowns, self.symbols.witness) for row in rows)
         x, y, z = (form_of(part, unknowns, self.symbols.witness) for part in platform)
-        return LoopEquations(tuple(form for form in forms if form), tuple(items), dict(self.lengths), (x, y, z))
+        return LoopEquations(tuple(form for form in forms if form), tuple(directions), dict(self.lengths), (x, y, z))
 
     def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
         numbered: dict[int, list[str]] = {}
@@ -111,10 +114,12 @@ class _Loops:
                 numbered.setdefault(number, []).append(link)
         return numbered
 
-    def _item(self, kind: Literal["circle", "rod"], links: list[str]) -> Item:
+    def _unknown_direction(self, kind: Literal["circle", "rod"], links: list[str]) -> UnknownDirection:
         name = next((link for link in links if "'" not in link), links[0]).replace(".", "_").replace("'s cross", "")
         prefixes = ("cos", "sin") if kind == "circle" else ("ex", "ey", "ez")
-        return Item(kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links))
+        return UnknownDirection(
+            kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links)
+        )
 
     def _points(self, joint: Joint) -> tuple[Vector, Vector]:
         own = self.symbols.geometry.joints[joint.name]
@@ -141,11 +146,13 @@ class _Loops:
 
     def _direction(self, joint: Joint, axis: Vector) -> Vector:
         """The direction of a slider, which must be fixed."""
-        direction = self.carried(joint.parent, axis)
-        unknowns = {unknown for item in (*self.circles.values(), *self.rods.values()) for unknown in item.unknowns}
-        if any(sympy.sympify(part).free_symbols & unknowns for part in direction):
+        along = self.carried(joint.parent, axis)
+        unknowns = {
+            unknown for direction in (*self.circles.values(), *self.rods.values()) for unknown in direction.unknowns
+        }
+        if any(sympy.sympify(part).free_symbols & unknowns for part in along):
             raise NotDerivedError(f"{joint.name} slides on a link that turns")
-        return direction
+        return along
 
     def carried(self, link: str, vector: Vector) -> Vector:
         """A vector fixed in a link, in the base."""

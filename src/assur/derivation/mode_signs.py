@@ -12,8 +12,9 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_text import ClosedFormText
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import AnalyticSolution
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, pose
@@ -36,7 +37,7 @@ def root_signs(direct: AnalyticSolution, inverse: AnalyticSolution) -> RootSigns
     solutions: tuple[tuple[Problem, AnalyticSolution], ...] = (("inverse", inverse), ("direct", direct))
     for problem, solution in solutions:
         own |= {(problem, root.symbol): (f"{problem}{k}", 1) for k, root in enumerate(solution.roots)}
-    names = names_of(ClosedFormText(direct, inverse, own).text(), Path("closed_form.py"))
+    names = names_of(ClosedFormText(ClosedFormFormulas(direct, inverse, own)).text(), Path("closed_form.py"))
     form: ClosedForm = names["CLOSED_FORM"]
     joints, signs = _branches(inverse, form, [name for name, _ in own.values()])
     matched: RootSigns = {}
@@ -76,11 +77,11 @@ def _branches(
     branch = form.inverse(
         ns, p, border.pose_components(record, many), SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
     )
-    there = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
+    real = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
     joints = border.joint_values(record, form.joints(ns, p, branch.core))
     values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
-    signs = {name: np.sign(np.broadcast_to(getattr(branch.core, f"of_{name}"), len(many)))[there] for name in names}
-    return values[there], signs
+    signs = {name: np.sign(np.broadcast_to(getattr(branch.core, f"of_{name}"), len(many)))[real] for name in names}
+    return values[real], signs
 
 
 def _radicands(form: ClosedForm, margins: Mapping[str, Any]) -> list[Any]:

@@ -1,4 +1,4 @@
-"""LinkOrientations of links, and why: which do not turn, and which turn about one fixed direction.
+"""Orientations of links, and why: which do not turn, and which turn about one fixed direction.
 
 Joints that cannot turn join links to bodies. A body that hangs on another by axes of one direction u has, against it,
 the orientation Rot(u, psi) C. If it hangs on it by axes of u and, by other joints, by axes of v as well, it cannot
@@ -8,27 +8,17 @@ one body then, and the argument goes round again.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import sympy
 
+from assur.derivation.exact_vectors import ExactVectors
+from assur.derivation.hinges import Hinge, RigidPair, hinges, point_on, rods_of
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.symbols import GivenSymbols
-from assur.errors import AssurError
-from assur.joint_graph.frames import frames
-from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED, about
-from assur.kinematics.home import home_values
-from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
-from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed
-
-HOME = 1e-9
-"""Rotations at home are known to rounding."""
-
-
-class NotDerivedError(AssurError):
-    """What the method does not reach; the message says what resists."""
+from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, subtract, transposed
 
 
 @dataclass(frozen=True)
@@ -67,30 +57,6 @@ class Orientation:
 
 
 @dataclass(frozen=True)
-class _Stiff:
-    parent: str
-    child: str
-    after: Matrix
-    joints: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class _Hinge:
-    """R_child = R_parent Rot(axis, q) after."""
-
-    parent: str
-    child: str
-    after: Matrix
-    axis: Vector
-    joints: tuple[str, ...] = ()
-
-    @property
-    def back(self) -> _Hinge:
-        own = apply(transposed(self.after), self.axis)
-        return _Hinge(self.child, self.parent, transposed(self.after), scaled(own, -1), self.joints)
-
-
-@dataclass(frozen=True)
 class _Way:
     """A direction u by whose axes a body hangs on a root, C of Rot(u, psi) C, and the joints."""
 
@@ -108,23 +74,19 @@ class LinkOrientations:
 
 
 def orientations(symbols: GivenSymbols) -> LinkOrientations:
-    """LinkOrientations of all links. Errors: NotDerivedError."""
+    """Orientations of all links. Errors: NotDerivedError."""
     return _Reading(symbols).orientations()
-
-
-def cross_of(joint: Joint) -> str:
-    """The cross of a universal joint, as a link."""
-    return f"{joint.name}'s cross"
 
 
 class _Reading:
     def __init__(self, symbols: GivenSymbols) -> None:
         self.symbols, self.record, self.witness = symbols, symbols.record, symbols.witness
+        self.exact = ExactVectors(symbols.witness)
 
     def orientations(self) -> LinkOrientations:
-        joints = [*self._of_joints(), *self._of_parallelograms()]
+        joints = [*hinges(self.symbols)]
         if self.symbols.orientation is not None:
-            joints.append(_Stiff(self.record.base, self.record.platform.link, self.symbols.orientation))
+            joints.append(RigidPair(self.record.base, self.record.platform.link, self.symbols.orientation))
         reasons: list[ConstraintReason] = []
         bodies = self._bodies(joints)
         while (more := self._held_together(self._free(joints, bodies))) is not None:
@@ -147,7 +109,7 @@ class _Reading:
         for number, (body, (way, hinge, constant)) in enumerate(hinged.items()):
             for link, (own, inside) in bodies.items():
                 if own == body:
-                    whole = self._tidy(product(constant, inside))
+                    whole = self.exact.tidy(product(constant, inside))
                     line = self._line(link, whole, hinge)
                     links[link] = Orientation(whole, way.axis, numbers[self._carrier[body]], line, number, hinge)
         links |= self._rods(links, len(hinged))
@@ -158,51 +120,10 @@ class _Reading:
             )
         return LinkOrientations(links, tuple(reasons))
 
-    def _of_joints(self) -> Iterator[_Stiff | _Hinge]:
-        slices = joint_graph(self.record).slices
-        for name, joint in self.record.joints.items():
-            own = self.symbols.geometry.joints[name]
-            turning = [(step, first) for step, first in joint.type.places if step.kind != "slide"]
-            if not turning:
-                yield _Stiff(joint.parent, joint.child, own.turn, (name,))
-            links = (joint.parent, *[cross_of(joint)] * (len(turning) - 1), joint.child)
-            for k, (step, first) in enumerate(turning):
-                after = own.turn if links[k + 1] == joint.child else UNTURNED
-                index = slices[name].start + first
-                if step.kind == "screw":
-                    raise NotDerivedError(f"{name}: a screw, whose length and angle belong together")
-                if step.kind == "turn" and index in self.symbols.locked:
-                    turned = about(own.axes[step.direction], *self.symbols.locked[index])
-                    yield _Stiff(links[k], links[k + 1], product(turned, after), (name,))
-                elif step.kind == "turn":
-                    yield _Hinge(links[k], links[k + 1], after, own.axes[step.direction], (name,))
-
-    def _of_parallelograms(self) -> Iterator[_Stiff | _Hinge]:
-        for group in self.record.generalised.values():
-            parent, child = group.parent, group.child
-            if group.kind == "P(4R)":
-                yield _Stiff(parent, child, self._as_at_home(parent, child), (group.name,))
-                first, second = rods_of(self.record, group)
-                yield _Stiff(first, second, self._as_at_home(first, second), (group.name,))
-            elif group.kind in ("P(4S)", "P(2US)"):
-                near, far = (self._point_on(self.record.joints[name], parent) for name in _near(self.record, group))
-                axis = self._unit(subtract(far, near))
-                yield _Hinge(parent, child, self._as_at_home(parent, child), axis, (group.name,))
-                if group.kind == "P(2US)":
-                    first, second = rods_of(self.record, group)
-                    yield _Stiff(first, second, self._as_at_home(first, second), (group.name,))
-
-    def _as_at_home(self, first: str, second: str) -> Matrix:
-        """The orientation of one link against another at home, which must be that of frames that are parallel."""
-        placed = frames(self.record, home_values(self.record))
-        if np.max(np.abs(placed[first][0].T @ placed[second][0] - np.eye(3))) > HOME:
-            raise NotDerivedError(f"{first} and {second} stay parallel, but their frames are not")
-        return UNTURNED
-
-    def _bodies(self, joints: Sequence[_Stiff | _Hinge]) -> dict[str, tuple[str, Matrix]]:
+    def _bodies(self, joints: Sequence[RigidPair | Hinge]) -> dict[str, tuple[str, Matrix]]:
         """Link -> its body, called by its first link, and the link's orientation in it."""
         links = dict.fromkeys((self.record.base, *(link for joint in joints for link in (joint.parent, joint.child))))
-        stiff = [joint for joint in joints if isinstance(joint, _Stiff)]
+        stiff = [joint for joint in joints if isinstance(joint, RigidPair)]
         bodies: dict[str, tuple[str, Matrix]] = {}
         for link in links:
             if link in bodies:
@@ -217,32 +138,32 @@ class _Reading:
                     ):
                         if start != near:
                             continue
-                        inside = self._tidy(product(bodies[near][1], after))
+                        inside = self.exact.tidy(product(bodies[near][1], after))
                         if end not in bodies:
                             bodies[end] = (link, inside)
                             waiting.append(end)
-                        elif not self._equal(bodies[end][1], inside):
+                        elif not self.exact.equal(bodies[end][1], inside):
                             raise NotDerivedError(f"the orientation of {end} is given twice, in two ways")
         return bodies
 
-    def _free(self, joints: Sequence[_Stiff | _Hinge], bodies: Mapping[str, tuple[str, Matrix]]) -> list[_Hinge]:
+    def _free(self, joints: Sequence[RigidPair | Hinge], bodies: Mapping[str, tuple[str, Matrix]]) -> list[Hinge]:
         free = []
         for joint in joints:
-            if isinstance(joint, _Hinge):
+            if isinstance(joint, Hinge):
                 (first, inside), (second, other) = bodies[joint.parent], bodies[joint.child]
                 if first != second:
-                    after = self._tidy(product(product(inside, joint.after), transposed(other)))
-                    axis = self._tidied(apply(inside, joint.axis))
-                    free.append(_Hinge(first, second, after, axis, joint.joints))
+                    after = self.exact.tidy(product(product(inside, joint.after), transposed(other)))
+                    axis = self.exact.tidied(apply(inside, joint.axis))
+                    free.append(Hinge(first, second, after, axis, joint.joints))
         return free
 
-    def _ways(self, free: Sequence[_Hinge], root: str, rotation: Matrix) -> dict[str, list[_Way]]:
+    def _ways(self, free: Sequence[Hinge], root: str, rotation: Matrix) -> dict[str, list[_Way]]:
         """For each body, the directions by whose axes alone it hangs on the root, whose orientation is given."""
         both = [*free, *(turn.back for turn in free)]
         directions: list[Vector] = []
         for turn in both:
-            axis = self._upright(self._tidied(apply(rotation, turn.axis)))
-            if turn.parent == root and not any(self._along(axis, other) for other in directions):
+            axis = self.exact.upright(self.exact.tidied(apply(rotation, turn.axis)))
+            if turn.parent == root and not any(self.exact.along(axis, other) for other in directions):
                 directions.append(axis)
         ways: dict[str, list[_Way]] = {}
         for axis in directions:
@@ -251,8 +172,12 @@ class _Reading:
             for near in waiting:
                 own, joints = reached[near]
                 for turn in both:
-                    if turn.parent == near and turn.child not in reached and self._along(apply(own, turn.axis), axis):
-                        reached[turn.child] = self._tidy(product(own, turn.after)), (*joints, *turn.joints)
+                    if (
+                        turn.parent == near
+                        and turn.child not in reached
+                        and self.exact.along(apply(own, turn.axis), axis)
+                    ):
+                        reached[turn.child] = self.exact.tidy(product(own, turn.after)), (*joints, *turn.joints)
                         waiting.append(turn.child)
             for body in waiting[1:]:
                 constant, joints = reached[body]
@@ -265,11 +190,11 @@ class _Reading:
             symbol: number for circle in self.symbols.circles for symbol, number in zip(circle, (1, 0), strict=True)
         }
         a, b, c = (tuple(sympy.sympify(part).subs(zero) for part in row) for row in constant)
-        plain = self._tidy((a, b, c))
+        plain = self.exact.tidy((a, b, c))
         turned = apply(product(constant, transposed(plain)), axis)
         return plain if all(map(self.witness.is_zero, subtract(turned, axis))) else constant
 
-    def _held_together(self, free: Sequence[_Hinge]) -> tuple[_Stiff, ConstraintReason] | None:
+    def _held_together(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
         """Two bodies that turn against each other about two directions, so not at all."""
         for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
             for body, ways in self._ways(free, root, UNTURNED).items():
@@ -277,7 +202,7 @@ class _Reading:
                     first, second = ways[:2]
                     after = self._meeting(first, second, body)
                     reason = ConstraintReason(body, root, first.axis, second.axis, first.joints, second.joints)
-                    return _Stiff(root, body, after, ()), reason
+                    return RigidPair(root, body, after, ()), reason
         return None
 
     def _meeting(self, first: _Way, second: _Way, body: str) -> Matrix:
@@ -291,9 +216,9 @@ class _Reading:
         share = dot(u, v)
         size = 1 - share**2
         cosine, sine = (dot(between, v) - share**2) / size, dot(u, cross(between, v)) / size
-        return self._tidy(product(about(u, sympy.simplify(cosine), sympy.simplify(sine)), first.constant))
+        return self.exact.tidy(product(about(u, sympy.simplify(cosine), sympy.simplify(sine)), first.constant))
 
-    def _hinged(self, free: Sequence[_Hinge], ways: Mapping[str, _Way]) -> dict[str, tuple[_Way, Vector, Matrix]]:
+    def _hinged(self, free: Sequence[Hinge], ways: Mapping[str, _Way]) -> dict[str, tuple[_Way, Vector, Matrix]]:
         """Rods on hinges: how what carries them turns, the hinge's direction and C, both where its psi is zero."""
         self._carrier: dict[str, str] = {}
         hinged: dict[str, tuple[_Way, Vector, Matrix]] = {}
@@ -302,25 +227,26 @@ class _Reading:
             if turn.parent not in ways or turn.child in ways or turn.child in hinged:
                 continue
             way = ways[turn.parent]
-            hinge = self._tidied(apply(way.constant, turn.axis))
+            hinge = self.exact.tidied(apply(way.constant, turn.axis))
             others = [other for other in both if other.child == turn.child]
             alike = all(
-                other.parent == turn.parent and self._along(apply(way.constant, other.axis), hinge) for other in others
+                other.parent == turn.parent and self.exact.along(apply(way.constant, other.axis), hinge)
+                for other in others
             )
             if alike and self.witness.is_zero(dot(hinge, way.axis)):
                 self._carrier[turn.child] = turn.parent
-                hinged[turn.child] = way, hinge, self._tidy(product(way.constant, turn.after))
+                hinged[turn.child] = way, hinge, self.exact.tidy(product(way.constant, turn.after))
         return hinged
 
     def _line(self, link: str, constant: Matrix, hinge: Vector) -> Vector:
         """The direction of a straight rod across its hinge, where psi and phi are zero."""
-        points = [
-            self._point_on(joint, link) for joint in self.record.joints.values() if link in (joint.parent, joint.child)
-        ]
-        along = apply(constant, self._unit(next(own for k in points for own in [subtract(k, points[0])] if any(own))))
+        joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
+        start, *points = (point_on(self.symbols, joint, link) for joint in joints)
+        side = next(vector for vector in (subtract(point, start) for point in points) if any(vector))
+        along = apply(constant, self.exact.unit(side))
         if not self.witness.is_zero(dot(along, hinge)):
             raise NotDerivedError(f"{link} is no straight rod across its hinge")
-        return self._tidied(along)
+        return self.exact.tidied(along)
 
     def _rods(self, links: Mapping[str, Orientation], first_number: int) -> dict[str, Orientation]:
         """Rods between two ball joints."""
@@ -333,60 +259,11 @@ class _Reading:
         for link in self.record.links:
             joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
             if link not in links and len(joints) == 2 and all(joint.type.ball for joint in joints):
-                near, far = (self._point_on(joint, link) for joint in joints)
-                lines[link] = self._unit(subtract(far, near))
+                near, far = (point_on(self.symbols, joint, link) for joint in joints)
+                lines[link] = self.exact.unit(subtract(far, near))
         alone = [link for link in lines if link not in together]
         numbers = {link: number for number, link in enumerate(alone, start=first_number)}
         return {
             link: Orientation(UNTURNED, line=line, rod=numbers[together.get(link, link)])
             for link, line in lines.items()
         }
-
-    def _point_on(self, joint: Joint, link: str) -> Vector:
-        own = self.symbols.geometry.joints[joint.name]
-        return own.at if joint.parent == link else own.child_at
-
-    def _unit(self, vector: Vector) -> Vector:
-        size = sympy.sqrt(sympy.expand(dot(vector, vector)))
-        x, y, z = (sympy.simplify(part / size) for part in vector)
-        return x, y, z
-
-    def _along(self, axis: Vector, other: Vector) -> bool:
-        return all(self.witness.is_zero(part) for part in cross(axis, other))
-
-    def _upright(self, axis: Vector) -> Vector:
-        """The same line; along an axis of the base, its positive sense."""
-        parts = [sympy.sympify(part) for part in axis]
-        first = next(part for part in reversed(parts) if not self.witness.is_zero(part))
-        return scaled(axis, -1) if first.could_extract_minus_sign() else axis
-
-    def _equal(self, first: Matrix, second: Matrix) -> bool:
-        return all(
-            self.witness.is_zero(a - b)
-            for row, other in zip(first, second, strict=True)
-            for a, b in zip(row, other, strict=True)
-        )
-
-    def _tidied(self, vector: Vector) -> Vector:
-        x, y, z = map(self._plain, vector)
-        return x, y, z
-
-    def _plain(self, part: sympy.Expr) -> sympy.Expr:
-        """A formula that is 0, 1 or -1 everywhere is that number."""
-        return next((number for number in (0, 1, -1) if self.witness.is_zero(part - number)), sympy.expand(part))
-
-    def _tidy(self, matrix: Matrix) -> Matrix:
-        a, b, c = (self._tidied(row) for row in matrix)
-        return a, b, c
-
-
-def rods_of(record: MechanismRecord, group: GeneralisedJoint) -> tuple[str, str]:
-    """The two rods of a parallelogram."""
-    links = {link for name in group.joints for link in (record.joints[name].parent, record.joints[name].child)}
-    first, second = sorted(links - {group.parent, group.child})
-    return first, second
-
-
-def _near(record: MechanismRecord, group: GeneralisedJoint) -> list[str]:
-    """The two joints on the parent's side."""
-    return [name for name in group.joints if group.parent in (record.joints[name].parent, record.joints[name].child)]

@@ -1,4 +1,4 @@
-"""Sets of items in the order in which they are solved, each by the linear equations in which nothing else is unknown.
+"""Sets of directions in the order of solution, each by the linear equations in which nothing else is unknown.
 
 Such a set is what the theory calls an Assur chain: the smallest that has as many equations as it needs.
 """
@@ -11,28 +11,30 @@ from itertools import combinations
 import sympy
 
 from assur.derivation.linear import Form, rank, solved
-from assur.derivation.loop_equations import Item
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.witness import ModularWitness
 
 
 def next_set(
-    forms: Sequence[Form], left: Sequence[Item], witness: ModularWitness
-) -> tuple[tuple[Item, ...], list[Form]]:
-    """The smallest set among the items that are left, and the equations in which these alone are unknown.
+    forms: Sequence[Form], left: Sequence[UnknownDirection], witness: ModularWitness
+) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
+    """The smallest set among the directions that are left, and the equations in which these alone are unknown.
 
     Errors:
         NotDerivedError: the equations determine none.
     """
-    all_unknowns = [unknown for item in left for unknown in item.unknowns]
+    all_unknowns = [unknown for direction in left for unknown in direction.unknowns]
     whole = rank(forms, all_unknowns, witness)
     for size in range(1, len(left) + 1):
         for chosen in combinations(left, size):
-            others = [unknown for item in left if item not in chosen for unknown in item.unknowns]
-            if whole - rank(forms, others, witness) >= sum(item.freedoms for item in chosen):
+            others = [unknown for direction in left if direction not in chosen for unknown in direction.unknowns]
+            if whole - rank(forms, others, witness) >= sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
-                return chosen, _independent(own, [unknown for item in chosen for unknown in item.unknowns], witness)
-    names = ", ".join(item.name for item in left)
+                return chosen, _independent(
+                    own, [unknown for direction in chosen for unknown in direction.unknowns], witness
+                )
+    names = ", ".join(direction.name for direction in left)
     raise NotDerivedError(f"what is given does not determine {names}")
 
 

@@ -11,7 +11,7 @@ import sympy
 from assur.derivation.elimination import Definition, Root, SolvedSet, solution
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
-from assur.derivation.loop_equations import Item, LoopEquations, loop_equations
+from assur.derivation.loop_equations import LoopEquations, UnknownDirection, loop_equations
 from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets import next_set
 from assur.derivation.symbols import GivenSymbols
@@ -66,7 +66,7 @@ class AnalyticSolution:
         turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=True)}
         for own in self.definitions:
             witness.define(own.symbol, turned.get(own.symbol, 1) * own.formula)
-        quadrics = (item.quadric for item in self.loops.items)
+        quadrics = (direction.quadric for direction in self.loops.directions)
         return all(map(witness.is_zero, (*map(value_of, self.loops.forms), *quadrics)))
 
 
@@ -84,9 +84,9 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     symbols = GivenSymbols(record, problem, witness)
     placed = orientations(symbols)
     loops = loop_equations(symbols, placed)
-    witness.home = home_numbers(symbols, placed, loops.items)
+    witness.home = home_numbers(symbols, placed, loops.directions)
     lengths, forms = projected(sparse(loops.forms, witness), list(loops.lengths.values()), witness)
-    sets = _sets(sparse([divided(form) for form in forms], witness), loops.items, witness, _names(record))
+    sets = _sets(sparse([divided(form) for form in forms], witness), loops.directions, witness, _names(record))
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
@@ -95,14 +95,14 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
 
 
 def _sets(
-    forms: Sequence[Form], items: Sequence[Item], witness: ModularWitness, taken: set[str]
+    forms: Sequence[Form], directions: Sequence[UnknownDirection], witness: ModularWitness, taken: set[str]
 ) -> tuple[SolvedSet, ...]:
-    left, sets = list(items), list[SolvedSet]()
+    left, sets = list(directions), list[SolvedSet]()
     while left:
         chosen, equations = next_set(forms, left, witness)
         sets.append(solution(len(sets) + 1, chosen, equations, witness, taken))
-        left = [item for item in left if item not in chosen]
-        unknowns = [unknown for item in left for unknown in item.unknowns]
+        left = [direction for direction in left if direction not in chosen]
+        unknowns = [unknown for direction in left for unknown in direction.unknowns]
         forms = [form_of(value_of(form), unknowns, witness) for form in forms]
         forms = [form for form in forms if form.keys() & {*unknowns}]
     return tuple(sets)

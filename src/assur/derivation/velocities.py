@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import sympy
 
 from assur.derivation.linear import Form, divided, form_of, replaced, solved, sparse
-from assur.derivation.loop_equations import Item
-from assur.derivation.orientations import NotDerivedError
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.model.pose import ANGLES
@@ -54,9 +54,9 @@ class _Velocities:
         driven = [*self._driven()]
         forms = [self._rate(form) for form in self.solution.loops.forms]
         values, rows = solved(forms, self.passive, self.witness)
-        for item in self.solution.loops.items:
-            if item not in driven:
-                across = {self.rates[unknown]: unknown for unknown in item.unknowns}
+        for direction in self.solution.loops.directions:
+            if direction not in driven:
+                across = {self.rates[unknown]: unknown for unknown in direction.unknowns}
                 rows.append(replaced(across, values, self.witness))
         _, rows = solved(rows, self.passive, self.witness)
         rows = [divided(self._alike(row)) for row in rows if row]
@@ -78,16 +78,16 @@ class _Velocities:
                     alike[first] = second if self.witness.is_zero(a + b) else -second
         return {key: part.subs(alike) for key, part in row.items()}
 
-    def _driven(self) -> Iterator[Item]:
+    def _driven(self) -> Iterator[UnknownDirection]:
         """Circles of links that inputs turn."""
         for driven in self.record.inputs:
             if driven.coordinate.kind == "angle":
                 yield self._circle(self.record.joints[driven.coordinate.joint].child)
 
-    def _circle(self, link: str) -> Item:
-        for item in self.solution.loops.items:
-            if item.kind == "circle" and link in item.links:
-                return item
+    def _circle(self, link: str) -> UnknownDirection:
+        for direction in self.solution.loops.directions:
+            if direction.kind == "circle" and link in direction.links:
+                return direction
         raise NotDerivedError(f"{link} is driven, and on no circle")
 
     def _rates(self) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
@@ -105,13 +105,18 @@ class _Velocities:
                 yield lengths[index], int(driven.sign) * rate
             else:
                 joint = self.record.joints[driven.coordinate.joint]
-                item, sense = self._circle(joint.child), self._sense(joint.name) * int(driven.sign)
-                cosine, sine = item.unknowns
+                direction, sense = self._circle(joint.child), self._sense(joint.name) * int(driven.sign)
+                cosine, sine = direction.unknowns
                 yield from ((cosine, -sense * sine * rate), (sine, sense * cosine * rate))
         driven_items = [*self._driven()]
         indices = {driven.coordinate.index for driven in self.record.inputs}
         free = [symbol for index, symbol in lengths.items() if index not in indices]
-        free += [unknown for item in self.solution.loops.items if item not in driven_items for unknown in item.unknowns]
+        free += [
+            unknown
+            for direction in self.solution.loops.directions
+            if direction not in driven_items
+            for unknown in direction.unknowns
+        ]
         for unknown in free:
             rate = sympy.Symbol(f"d_{unknown.name}", real=True)
             self.passive.append(rate)

@@ -1,0 +1,205 @@
+"""The formulas of a closed form: what is solved, and in the same unknowns inputs, signs, margins and factors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy
+
+from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.sizes import Sizes
+from assur.derivation.solution import AnalyticSolution
+from assur.derivation.symbols import circle_of
+from assur.derivation.velocities import VelocityEquations, velocity_equations
+from assur.kinematics.modes import Problem
+from assur.model.pose import ANGLES, LENGTHS
+from assur.numerics.vectors import dot
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedFormFormulas:
+    """Formulas of a mechanism whose direct and inverse problems were solved.
+
+    Attributes:
+        direct, inverse: the solutions.
+        signs: problem, symbol of a root -> the name of its sign, and whether it is that sign or its opposite.
+    """
+
+    direct: AnalyticSolution
+    inverse: AnalyticSolution
+    signs: Mapping[tuple[Problem, sympy.Symbol], tuple[str, int]]
+
+    def solution(self, problem: Problem) -> AnalyticSolution:
+        """Of one problem."""
+        return self.direct if problem == "direct" else self.inverse
+
+    def in_unknowns(self, solution: AnalyticSolution, value: sympy.Expr) -> sympy.Expr:
+        """A formula with what is defined written out, down to the unknowns of the solution."""
+        kept = {unknown for direction in solution.loops.directions for unknown in direction.unknowns}
+        known = {own.symbol: own.formula for own in solution.definitions if own.symbol not in kept}
+        while defined := value.free_symbols & known.keys():
+            value = value.subs({symbol: known[symbol] for symbol in defined})
+        return value
+
+    @cached_property
+    def joints(self) -> SolvedJoints:
+        """Formulas of all joints."""
+        return joint_formulas(self.inverse)
+
+    @cached_property
+    def velocities(self) -> VelocityEquations:
+        """Jp and Jq."""
+        return velocity_equations(self.inverse)
+
+    @cached_property
+    def unknowns(self) -> list[sympy.Symbol]:
+        """What the core is made of, beside the pose: unknowns of the inverse problem."""
+        lengths = [*self.inverse.loops.lengths.values()]
+        return lengths + [unknown for direction in self.inverse.loops.directions for unknown in direction.unknowns]
+
+    @cached_property
+    def posed(self) -> list[sympy.Symbol]:
+        """Symbols of the pose."""
+        names = self.inverse.symbols.record.platform.pose
+        return [symbol for name in names for symbol in (circle_of(name) if name in ANGLES else (_real(name),))]
+
+    @cached_property
+    def posed_pairs(self) -> list[Any]:
+        """Coordinates of the pose as a branch has them."""
+        names = self.inverse.symbols.record.platform.pose
+        return [circle_of(name) if name in ANGLES else _real(name) for name in names]
+
+    @cached_property
+    def printed_inputs(self) -> list[Any]:
+        """Symbols of the inputs of the direct problem."""
+        record = self.direct.symbols.record
+        return [
+            circle_of(driven.name) if driven.coordinate.kind == "angle" else _real(driven.name)
+            for driven in record.inputs
+        ]
+
+    @cached_property
+    def input_pairs(self) -> list[Any]:
+        """Inputs as formulas of the unknowns of the inverse problem."""
+        own: list[Any] = []
+        for driven in self.inverse.symbols.record.inputs:
+            name = driven.coordinate.joint
+            value: Any = self.joints.values.get(name, self.joints.values.get(f"{name}.{driven.coordinate.component}"))
+            if driven.coordinate.kind == "angle":
+                if driven.offset:
+                    raise NotDerivedError(f"{driven.name} is an angle with an offset")
+                cosine, sine = value
+                own.append((cosine, int(driven.sign) * sine))
+            else:
+                own.append(value * int(driven.sign) + sympy.nsimplify(driven.offset, rational=True))
+        return own
+
+    def rest(self, problem: Problem) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
+        """What the core asks for and the problem's own formulas do not say."""
+        if problem == "inverse":
+            return
+        record = self.direct.symbols.record
+        known = {own.symbol for own in self.direct.definitions}
+        lengths = self.inverse.loops.lengths
+        for index, symbol in lengths.items():
+            if index in self.direct.symbols.locked:
+                yield symbol, self.direct.symbols.locked[index]
+        for driven, pair in zip(record.inputs, self.input_pairs, strict=True):
+            if driven.coordinate.kind == "angle":  # the angle of a link that an input turns, from that of the input
+                cosine, sine = circle_of(driven.name)
+                for part, value in zip(pair, (cosine, sine), strict=True):
+                    (symbol,) = part.free_symbols
+                    if symbol not in known:
+                        yield symbol, value * part.coeff(symbol)
+        named = dict(zip(LENGTHS, self.direct.point, strict=True))
+        for name in record.platform.pose:
+            if name in named:
+                yield _real(name), named[name]
+            else:
+                yield from zip(circle_of(name), self._turned_by(name), strict=True)
+
+    def _turned_by(self, name: str) -> tuple[sympy.Expr, sympy.Expr]:
+        """Cosine and sine of an angle of the pose."""
+        own = self.direct.placed.links[self.direct.symbols.record.platform.link]
+        if name != "phi" or own.axis is None or tuple(own.axis) != (0, 0, 1) or own.rod is not None:
+            raise NotDerivedError(f"the platform's {name}")
+        for direction in self.direct.loops.directions:
+            if self.direct.symbols.record.platform.link in direction.links:
+                return direction.unknowns[0], direction.unknowns[1]
+        raise NotDerivedError(f"the platform's {name}")
+
+    def margins(self, problem: Problem) -> Iterator[tuple[str, sympy.Expr]]:
+        """Names and formulas of what must not vanish, and of radicands."""
+        solution = self.solution(problem)
+        for part in solution.sets:
+            for number, condition in enumerate(part.conditions, start=1):
+                if condition.free_symbols - {*self.inverse.symbols.parameters.values()}:
+                    yield self._condition_name(condition, part.directions[0].name, number), condition
+            for root in part.roots:
+                yield root.radicand.name, root.radicand
+        for tilt in self.joints.tilts:
+            yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
+
+    def _condition_name(self, condition: sympy.Expr, link: str, number: int) -> str:
+        return condition.name if condition.is_Symbol else f"c{number}_{link}"
+
+    @cached_property
+    def sign_values(self) -> dict[str, sympy.Expr]:
+        """Name of a sign -> what it is the sign of, in the unknowns of the inverse problem and the pose."""
+        values = {}
+        for solution in (self.inverse, self.direct):
+            for root in solution.roots:
+                name, sense = self.signs[solution.symbols.problem, root.symbol]
+                value = self.in_unknowns(solution, root.quantity)
+                if solution is self.direct:
+                    value = value.subs(self._inputs_in_unknowns)
+                values[name] = sympy.factor_terms(sense * value)
+        return values
+
+    @cached_property
+    def _inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Symbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
+        pairs = zip(self.printed_inputs, self.input_pairs, strict=True)
+        values: dict[sympy.Symbol, sympy.Expr] = {}
+        for printed, own in pairs:
+            values |= dict(zip(printed, own, strict=True)) if isinstance(printed, tuple) else {printed: own}
+        return values
+
+    @cached_property
+    def factors(self) -> list[tuple[str, str, sympy.Expr]]:
+        """Name, kind and value of each factor of both determinants, numbers and dimensions in the first ones."""
+        own: list[tuple[str, str, sympy.Expr]] = []
+        parameters = {*self.inverse.symbols.parameters.values()}
+        for kind, letter, powers in (
+            ("parallel", "f", self.velocities.parallel), ("serial", "g", self.velocities.serial),
+        ):  # fmt: skip
+            constants = [base for base, power in powers for _ in range(power) if not base.free_symbols - parameters]
+            varying = [base for base, power in powers for _ in range(power) if base.free_symbols - parameters]
+            if not varying:
+                if sympy.simplify(sympy.prod(constants) - 1) != 0:
+                    varying = [sympy.prod(constants)]
+                constants = []
+            for k, constant in enumerate(constants):
+                varying[k % len(varying)] *= constant
+            own += [(f"{letter}{k}", kind, value) for k, value in enumerate(varying, start=1)]
+        return own
+
+    def unit(self, value: sympy.Expr) -> int:
+        """Power of the length unit."""
+        return self._sizes.unit(value)
+
+    def scale(self, value: sympy.Expr) -> str:
+        """A formula of dimensions: the size of a quantity, its terms added up."""
+        return self._sizes.scale(value)
+
+    @cached_property
+    def _sizes(self) -> Sizes:
+        return Sizes(self.inverse, frozenset(own for own in self.printed_inputs if not isinstance(own, tuple)))
+
+
+def _real(name: str) -> sympy.Symbol:
+    return sympy.Symbol(name, real=True)
