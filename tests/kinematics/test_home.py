@@ -25,7 +25,7 @@ def test_a_symmetric_mechanism_stands_symmetric(name, unit):
 def test_dimensions_that_lead_into_another_mode_say_which_and_what_can_be_done(tmp_path):
     """The mode has one group of signs, so that no blank stands beside it."""
     chains = parse_chains(["R[z] R[z] R[z]"] * 3)
-    (tmp_path / "my.toml").write_text(drafted(chains, tmp_path / "my.toml").text, encoding="utf-8")
+    (tmp_path / "my.toml").write_text(drafted(chains, tmp_path / "my.toml", coordinates=True).text, encoding="utf-8")
     record = assur.load(tmp_path / "my.toml")
     with pytest.raises(UsageError) as caught:
         home_values(with_parameters(record, C_x=900.0))

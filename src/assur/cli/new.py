@@ -58,6 +58,9 @@ def new(
     mode: Annotated[
         str, Parameter(help="translation: the platform keeps its orientation. home: as the chains stand.")
     ] = "",
+    coordinates: Annotated[
+        bool, Parameter(help="Of a draft: parameters are where joints are at home, not lengths.")
+    ] = False,
     force: Annotated[bool, Parameter(help="Replace the file if it is there.")] = False,
     with_closed_form: Annotated[bool, Parameter(help="With --from: copy its closed form, a Python file, too.")] = False,
     shared: Plain = PLAIN,  # noqa: ARG001  # read by main
@@ -69,13 +72,14 @@ def new(
     one between low lines, is driven: 3-_R_PS. Pa is a parallelogram, Pa(4S) one
     with ball joints.
 
-    A draft needs no dimensions. Joints get default places, each a parameter;
-    limbs that are turns of one another about z become one template. Axes with
-    one label (R[x]@O) meet in one point, also those of different limbs; --limb
-    gives each limb its own, unless all its axes run through it. The file
-    is sound, its loops close at home whatever its parameters are, and it has
-    the topology of the chains: where that cannot be had, it says so and writes
-    nothing. For the notation of chains see `assur topology --help`.
+    A draft needs no dimensions. It gets default ones, link lengths l, offsets
+    e, radii and angles; with --coordinates the places of joints at home, and
+    then its loops close there whatever these are. Limbs that are turns of one
+    another about z become one template. Axes with one label (R[x]@O) meet in
+    one point, also those of different limbs; --limb gives each limb its own,
+    unless all its axes run through it. The file is sound and has the topology
+    of the chains: where that cannot be had, it says so and writes nothing. For
+    the notation of chains see `assur topology --help`.
 
     For example:
         assur new my.toml --from delta_4s
@@ -93,36 +97,42 @@ def new(
     path = _target(file, force=force)
     if from_ and not chain and not limb and not shorthand:
         _refuse_options(path, {"--count": count, "--actuate": actuate, "--mode": mode})
-        return _from_catalogue(from_, path, force=force, with_closed_form=with_closed_form)
+        return _from_catalogue(from_, path, force=force, with_closed_form=with_closed_form, coordinates=coordinates)
     if with_closed_form:
         raise UsageError("--with-closed-form goes with --from; a draft has no closed form", hint="leave it out")
     if shorthand and not from_ and not chain and not limb:
         _refuse_options(path, {"--count": count})
-        return _arranged(shorthand, arrangement, path, actuate, mode)
-    return _draft(_chains(path, from_, chain, limb, count, shorthand), path, actuate, mode)
+        return _arranged(shorthand, arrangement, path, actuate, mode, coordinates=coordinates)
+    chains = _chains(path, from_, chain, limb, count, shorthand)
+    return _draft(chains, path, actuate, mode, coordinates=coordinates)
 
 
-def _arranged(shorthand: str, name: str, path: Path, actuate: str, mode: str) -> Outcome:
+def _arranged(shorthand: str, name: str, path: Path, actuate: str, mode: str, *, coordinates: bool) -> Outcome:
     from assur.synthesis.shorthand.arrangements import arranged
 
     meant = arranged(shorthand, name)
     said = (f"{meant.shown}: {meant.says}; in full:", f"    {meant.options}")
-    return _draft(meant.chains, path, actuate or ",".join(meant.actuate), mode or meant.mode, said)
+    driven = actuate or ",".join(meant.actuate)
+    return _draft(meant.chains, path, driven, mode or meant.mode, said, coordinates=coordinates)
 
 
-def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
+def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: bool, coordinates: bool) -> Outcome:
     from assur.model.topologies import load_topology
     from assur.synthesis.drafting.copying import copied, has_dimensions, in_catalogue
 
     model = in_catalogue(name)
     if has_dimensions(model):
+        if coordinates:
+            raise UsageError(f"--coordinates goes with a draft; {model} has dimensions", hint="leave it out")
         return _written_copy(copied(model, path), path, force=force, with_closed_form=with_closed_form)
     described = load_topology(model)
     numbers = ",".join(f"{limb}.{joint}" for limb, joint in described.actuate)
-    return _draft(described.chains, path, numbers, described.mode)
+    return _draft(described.chains, path, numbers, described.mode, coordinates=coordinates)
 
 
-def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str, read: Sequence[str] = ()) -> Outcome:
+def _draft(
+    chains: Sequence[Chain], path: Path, actuate: str, mode: str, read: Sequence[str] = (), *, coordinates: bool
+) -> Outcome:
     from assur.results.files import write_whole
     from assur.synthesis.drafting.drafting import drafted
 
@@ -130,7 +140,7 @@ def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str, read: S
     numbers = tuple(part.strip() for part in actuate.split(",")) if actuate.strip() else None
     if mode and mode not in MODES:
         raise UnknownNameError("mode", mode, MODES)
-    found = drafted(chains, path, actuate=numbers, mode=MODES[mode or "home"])
+    found = drafted(chains, path, actuate=numbers, mode=MODES[mode or "home"], coordinates=coordinates)
     topology = found.topology
     freedoms = plural(topology.dof - topology.internal_freedoms, "degree")
     said = [

@@ -24,7 +24,7 @@ TURNING = ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"]
 
 def drafted(folder, name, chains):
     path = str(folder / f"{name}.toml")
-    assert main(["new", path, *(word for chain in chains for word in ("--chain", chain))]) == 0
+    assert main(["new", path, "--coordinates", *(word for chain in chains for word in ("--chain", chain))]) == 0
     return path
 
 

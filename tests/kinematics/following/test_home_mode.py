@@ -23,7 +23,7 @@ REACHED, UNREACHED = np.array([10.0, 300.0, 0.0]), np.array([10.0, 300.0, np.rad
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     path = str(tmp_path_factory.mktemp("drafts") / "m2.toml")
-    assert main(["new", path, *(word for chain in CHAINS for word in ("--chain", chain))]) == 0
+    assert main(["new", path, "--coordinates", *(word for chain in CHAINS for word in ("--chain", chain))]) == 0
     return path
 
 

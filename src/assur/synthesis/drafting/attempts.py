@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from assur.errors import AssurError
 from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
@@ -25,7 +23,8 @@ from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.facts import differences
 from assur.synthesis.drafting.homes import away, clearance, home_table
 from assur.synthesis.drafting.knees import knee_formula, turned_round
-from assur.synthesis.drafting.layout import DraftLayout
+from assur.synthesis.drafting.layout import HEIGHT, DraftLayout
+from assur.synthesis.drafting.lengths import by_lengths
 from assur.synthesis.drafting.limb import HEIGHT_NAME
 from assur.synthesis.drafting.pose import pose_for
 from assur.synthesis.drafting.tables import Knee
@@ -36,6 +35,16 @@ from assur.topology.facts import Topology
 from assur.topology.notation import plain_text
 from assur.work import stage
 
+BY_LENGTHS = (
+    "The parameters are lengths l and offsets e of links, radii a, b or r from the Z axis, heights h, and angles. At",
+    "joint values zero all link frames are parallel to the base's; the loops are closed from the values below.",
+)
+BY_COORDINATES = (
+    "As drawn, all joint values are zero and all link frames are parallel to the base's. The parameters say where",
+    "joints are there, so that the loops close whatever their values are.",
+)
+AWAY = "Home is a little away from where it was drawn, which is singular."
+
 STRAIGHT = 1.0
 """A knee whose formula is smaller, in mm^2, is stretched."""
 
@@ -45,12 +54,13 @@ ROOM, TILT = 100, 30
 
 @dataclass(frozen=True)
 class Attempt:
-    """One layout as a file: what is wrong with it, and how far its home is from singular."""
+    """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes."""
 
     text: str
     record: MechanismRecord | None
     fault: str = ""
     clearance: float = 0.0
+    unreadable: bool = False
 
 
 @dataclass(frozen=True)
@@ -62,17 +72,25 @@ class DraftQuestion:
     inputs: Sequence[str]
     topology: Topology
     mode: Mode
+    coordinates: bool = False
 
     @stage("draft of one layout")
     def attempt(self, layout: DraftLayout, *, moved: bool) -> Attempt:
         """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
         drawn = draft(self.chains, layout)
+        if self.coordinates:
+            return self._written(drawn, moved=moved)
+        made = self._written(by_lengths(drawn), moved=moved)
+        # where loops close for special dimensions alone, rounded ones may not do
+        return self._written(by_lengths(drawn, rounded=False), moved=moved) if made.unreadable else made
+
+    def _written(self, drawn: Draft, *, moved: bool) -> Attempt:
         driven = _inputs(self.chains, drawn, self.inputs)
         first = Chosen(self.path.stem, (), (*LENGTHS, *ANGLES), False, driven, {}, {})
         still = self.topology.poc.r == 0
         try:
             record = self._read(drawn, first)
-            values = away(record, still=still) if moved else np.zeros(len(record.coordinates))
+            values = away(record, still=still) if moved else home_values(record)
             if values is None:
                 return Attempt("", None, "the platform cannot be moved away from home")
             pose = pose_for(motions(record, values, RANK_GAP).twists, len(self.inputs), still=still)
@@ -83,7 +101,7 @@ class DraftQuestion:
                 pose=pose,
                 constant=still,
                 box=_box(pose, drawn),
-                header=_header(self.chains, self.topology, self.path, moved=moved),
+                header=self._header(moved=moved),
                 home=home_table(record, values) if moved else {},
             )
             chosen = self._with_modes(drawn, chosen)
@@ -93,7 +111,7 @@ class DraftQuestion:
                 return Attempt("", None, f"{wrong[0].path}: {wrong[0].given}")
             return Attempt(document(drawn, chosen), record, clearance=clearance(record))
         except AssurError as error:
-            return Attempt("", None, error.message)
+            return Attempt("", None, error.message, unreadable=True)
 
     def agrees(self, made: Attempt, reasons: dict[str, None]) -> bool:
         """Whether a sound file has the topology of the chains; if not, why."""
@@ -108,6 +126,24 @@ class DraftQuestion:
 
     def _read(self, drawn: Draft, chosen: Chosen) -> MechanismRecord:
         return read_text(document(drawn, chosen), self.path)
+
+    def _header(self, *, moved: bool) -> tuple[str, ...]:
+        """What the file is, and what to do with it."""
+        texts = (" ".join((chain.text or plain_text(chain)).split()) for chain in self.chains)
+        limbs = [f"    limb {number}: {text}" for number, text in enumerate(texts, 1)]
+        steps = [line.removeprefix("# ") for line in next_steps(self.path)]
+        topology = self.topology
+        freedoms = plural(topology.dof - topology.internal_freedoms, "degree")
+        return (
+            f"{self.path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
+            *limbs,
+            f"Their topology: {topology.poc}, {freedoms} of freedom, coupling degree {topology.coupling_degree}.",
+            "",
+            *(BY_COORDINATES if self.coordinates else BY_LENGTHS),
+            *((AWAY,) if moved else ()),
+            "Next:",
+            *steps,
+        )
 
     def _with_modes(self, drawn: Draft, chosen: Chosen) -> Chosen:
         """The same with working modes by the senses of the knees, where every limb has one that is bent."""
@@ -153,26 +189,10 @@ def _inputs(chains: Sequence[Chain], drawn: Draft, inputs: Sequence[str]) -> tup
 def _box(pose: Sequence[str], drawn: Draft) -> dict[str, tuple[str, str]]:
     """Where to look for the workspace: around home."""
     box = dict.fromkeys(LENGTHS, (f"-{ROOM}", f"{ROOM}"))
-    if not drawn.flat:
+    if any(size.name == HEIGHT_NAME for size in drawn.dimensions):
         box["z"] = (f'"{HEIGHT_NAME} - {ROOM}"', f'"{HEIGHT_NAME} + {ROOM}"')
+    elif not drawn.flat:
+        box["z"] = (f"{HEIGHT - ROOM:g}", f"{HEIGHT + ROOM:g}")
     box |= dict.fromkeys(ANGLES, (f"-{TILT}", f"{TILT}"))
     box |= dict.fromkeys(QUATERNION, ("-0.2", "0.2")) | {"qw": ("0.9", "1")}
     return {name: box[name] for name in pose}
-
-
-def _header(chains: Sequence[Chain], topology: Topology, path: Path, *, moved: bool) -> tuple[str, ...]:
-    texts = (" ".join((chain.text or plain_text(chain)).split()) for chain in chains)
-    limbs = [f"    limb {number}: {text}" for number, text in enumerate(texts, 1)]
-    steps = [line.removeprefix("# ") for line in next_steps(path)]
-    home = "Home is a little away from there." if moved else "That is home."
-    return (
-        f"{path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
-        *limbs,
-        f"Their topology: {topology.poc}, {plural(topology.dof - topology.internal_freedoms, 'degree')} of freedom, "
-        f"coupling degree {topology.coupling_degree}.",
-        "",
-        "As drawn, all joint values are zero and all link frames are parallel to the base's. The parameters say where",
-        f"joints are there, so that the loops close whatever their values are. {home}",
-        "Next:",
-        *steps,
-    )

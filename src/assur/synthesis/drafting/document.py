@@ -8,10 +8,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from assur.model.mechanism import GeneralisedJoint
-from assur.synthesis.drafting.limb import BASE_LINK, PLATFORM_LINK, point_text
-from assur.synthesis.drafting.linear import ORIGIN
+from assur.synthesis.drafting.limb import AXES, BASE_LINK, PLATFORM_LINK
+from assur.synthesis.drafting.linear import ORIGIN, Point
 from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink, Template
 from assur.synthesis.drafting.templates import Draft
+from assur.topology.directions import Vector
+from assur.topology.notation.brackets import direction_text
+
+HOME = "near home, as drawn"
 
 
 @dataclass(frozen=True)
@@ -106,14 +110,15 @@ def _parameters(draft: Draft) -> list[str]:
     listed = [*draft.dimensions, *(dimension for template in draft.templates for dimension in template.dimensions)]
     width = max((len(dimension.name) for dimension in listed), default=0)
     return [
-        "[parameters]                         # places at home; change them as you like",
+        "[parameters]                         # change them as you like",
         *(_dimension(dimension, width) for dimension in listed),
     ]
 
 
 def _dimension(dimension: Dimension, width: int) -> str:
     sign = "" if dimension.sign == "positive" else f', sign = "{dimension.sign}"'
-    return f'{dimension.name:{width}} = {{ value = {dimension.value:g}, meaning = "{dimension.meaning}"{sign} }}'
+    sign += f', unit = "{dimension.unit}"' if dimension.unit else ""
+    return f'{dimension.name:{width}} = {{ value = {dimension.value:.12g}, meaning = "{dimension.meaning}"{sign} }}'
 
 
 def _limb(template: Template, driven: Mapping[str, DrivenJoint], *, drawn: bool, chained: bool) -> Iterator[list[str]]:
@@ -141,8 +146,12 @@ def _limb(template: Template, driven: Mapping[str, DrivenJoint], *, drawn: bool,
     if template.name in driven:
         yield [f"[{top}.inputs]", _input_line(driven[template.name], "q")]
     if drawn:
-        rows = [f"{joint.name} = {_values([0.0] * joint.type.freedoms)}" for joint in template.joints]
-        yield [f"[{top}.home]".ljust(37) + "# all zero: the loops close as drawn", *rows]
+        zero = "all zero: the loops close as drawn"
+        rows = [
+            f"{joint.name} = {_values(template.home.get(joint.name) or [0.0] * joint.type.freedoms)}"
+            for joint in template.joints
+        ]
+        yield [f"[{top}.home]".ljust(37) + f"# {HOME if template.home else zero}", *rows]
 
 
 def _joints(joints: Sequence[DraftJoint]) -> list[str]:
@@ -159,12 +168,35 @@ def _parts(joint: DraftJoint, width: int) -> Iterator[str]:
         yield f"at = {point_text(joint.at)},"
     if joint.child_at != ORIGIN:
         yield f"child_at = {point_text(joint.child_at)},"
-    if len(joint.axes) == 1:
-        yield f"axis = {joint.axes[0]},"
+    if joint.leg is not None:
+        yield f"axis = {point_text(joint.leg)},"
+    elif len(joint.axes) == 1:
+        yield f"axis = {axis_text(joint.axes[0])},"
     elif joint.axes:
-        yield f"axes = [{', '.join(joint.axes)}],"
+        yield f"axes = [{', '.join(map(axis_text, joint.axes))}],"
     if joint.pitch:
         yield f'pitch = "{joint.pitch}",'
+
+
+def axis_text(axis: Vector) -> str:
+    """An axis as a mechanism's file writes it.
+
+    >>> axis_text((0.0, -1.0, 0.0)), axis_text((0.6, 0.0, 0.8))
+    ('"-y"', '[0.6, 0, 0.8]')
+    """
+    text = direction_text(axis)
+    return f'"{text}"' if text.strip("-") in AXES else f"[{', '.join(text.split(','))}]"
+
+
+def point_text(point: Point) -> str:
+    """A point as a mechanism's file writes it.
+
+    >>> from assur.synthesis.drafting.linear import Linear, dimension
+    >>> point_text((dimension("R"), Linear(), Linear()))
+    '["R", 0, 0]'
+    """
+    texts = [part.text() for part in point]
+    return "[" + ", ".join(text if text == "0" else f'"{text}"' for text in texts) + "]"
 
 
 def _group(top: str, group: GeneralisedJoint) -> list[str]:
@@ -217,5 +249,5 @@ def _list(texts: Iterable[str]) -> str:
 
 
 def _values(values: Sequence[float]) -> str:
-    texts = [f"{value:.6g}" for value in values]
+    texts = [f"{value:.12g}" for value in values]
     return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"

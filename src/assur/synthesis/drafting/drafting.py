@@ -39,17 +39,24 @@ class Drafted:
 
 
 def drafted(
-    chains: Sequence[Chain], path: Path, *, actuate: Sequence[str] | None = None, mode: Mode = "home"
+    chains: Sequence[Chain],
+    path: Path,
+    *,
+    actuate: Sequence[str] | None = None,
+    mode: Mode = "home",
+    coordinates: bool = False,
 ) -> Drafted:
     """The file of a mechanism of some chains, with default dimensions.
 
-    At home all link frames are parallel and all joint values zero. Where the joints are there is given by parameters,
-    in every link by the same ones, so that the loops close whatever these are.
+    Its parameters are lengths, offsets and angles of links, and its home closes near the values that it gives. By
+    coordinates all link frames are parallel at home and all joint values zero; parameters say where the joints are
+    there, in every link the same ones, so that the loops close whatever these are.
 
     Args:
         chains: limbs from base to platform.
         path: of the file, whose stem is the mechanism's name; nothing is written.
         actuate: actuated joints as "limb.joint", counted from 1; by default the first of each branch that determine it.
+        coordinates: whether the parameters are coordinates of joints at home instead.
         mode: "home", or "translation": the platform keeps its orientation.
 
     Errors:
@@ -70,7 +77,8 @@ def drafted(
             hint='give --chain again, or --limb "..." --count 3, or branches in braces: "{P[y] R[x] R[x] | ...}"',
         )
     inputs, topology = inputs_for(chains, actuate, mode)
-    asked = DraftQuestion(chains, path, inputs, topology, mode)
+    asked = DraftQuestion(chains, path, inputs, topology, mode, coordinates)
+    enough = min(topology.poc.t, max(topology.poc.dim - topology.poc.r, 1))
     reasons: dict[str, None] = {}
     singular: list[Attempt] = []
     for moved, layouts in itertools.product((False, True), LAYOUTS):
@@ -85,11 +93,11 @@ def drafted(
                     return Drafted(_with_names(made), topology)
                 continue
             sound.append(made)
-        for made in _best_first(sound):
+        for made in _best_first(sound, enough):
             if made.clearance >= CLEAR and asked.agrees(made, reasons):
                 return Drafted(_with_names(made), topology)
         singular += [made for made in sound if made.clearance < CLEAR]
-    for made in _best_first(singular):
+    for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
             note = "home is singular, or nearly so, in every layout that was tried: change the places of joints"
             return Drafted(_with_names(made), topology, (note,))
@@ -113,11 +121,11 @@ def _with_names(made: Attempt) -> str:
     return "\n".join([made.text.rstrip(), "", head, *lines, ""]) if lines else made.text
 
 
-def _best_first(made: Sequence[Attempt]) -> list[Attempt]:
-    """Attempts, first by the lengths in their pose, then by how far their home is from singular."""
-    return sorted(made, key=lambda attempt: (-_lengths(attempt), -attempt.clearance))
+def _best_first(made: Sequence[Attempt], enough: int) -> list[Attempt]:
+    """Attempts, first by lengths in their pose as far as there are enough, then by how far home is from singular."""
+    return sorted(made, key=lambda attempt: (-min(_lengths(attempt), enough), -min(attempt.clearance, GOOD)))
 
 
 def _lengths(made: Attempt) -> int:
-    """How many coordinates of the pose are lengths, which people like better than angles."""
+    """How many coordinates of the pose are lengths, which people like better than angles that come with them."""
     return 0 if made.record is None else sum(name in LENGTHS for name in made.record.platform.pose)

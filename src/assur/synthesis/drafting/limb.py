@@ -31,7 +31,6 @@ from assur.synthesis.drafting.linear import ORIGIN, Linear, Point, along, dimens
 from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, flattened
 from assur.topology.directions import NAMED, Vector
-from assur.topology.notation.brackets import direction_text
 
 BASE_LINK, PLATFORM_LINK = "base", "platform"
 HEIGHT_NAME = "height"
@@ -164,14 +163,15 @@ class LimbDrawing:
         kind: JointType,
         links: tuple[str, str],
         point: Point,
-        axes: Sequence[str] = (),
+        axes: Sequence[Vector] = (),
         pitch: str = "",
+        leg: Point | None = None,
     ) -> None:
         """A joint at a point; a link that is new has its origin there."""
         parent, child = links
         origin = self.origins.setdefault(child, point)
         at, child_at = minus(point, self.origins[parent]), minus(point, origin)
-        self.joints.append(DraftJoint(name, kind, parent, child, at, child_at, tuple(axes), pitch))
+        self.joints.append(DraftJoint(name, kind, parent, child, at, child_at, tuple(axes), pitch, leg))
 
     def _joint(self, joint: ChainJoint, parent: str, child: str, ends: ElementEnds, leg: Point | None) -> None:
         name = joint.name
@@ -179,12 +179,9 @@ class LimbDrawing:
         if joint.type.screw:
             pitch = f"{name}_pitch"
             self._dimension(name, Dimension(pitch, PITCH, f"joint {name}: advance per turn"))
-        if joint.general and self.layout.nice and leg is not None:
-            axes = [point_text(leg)]
-        else:
-            nice = _NICE.get(joint.type) if joint.general and self.layout.nice else None
-            axes = [axis_text(axis) for axis in nice or joint.axes]
-        self._add(name, joint.type, (parent, child), ends.near, axes, pitch)
+        nice = _NICE.get(joint.type) if joint.general and self.layout.nice else None
+        along_leg = leg if joint.general and self.layout.nice else None
+        self._add(name, joint.type, (parent, child), ends.near, nice or joint.axes, pitch, along_leg)
 
     def _parallelogram(self, element: Parallelogram, parent: str, child: str, ends: ElementEnds) -> None:
         letter = element.name
@@ -197,7 +194,7 @@ class LimbDrawing:
         half = along(width, short, 0.5)
         rods = [f"rod{letter}1", f"rod{letter}2"]
         self.links += [DraftLink(rods[0], f"first rod of {letter}"), DraftLink(rods[1], f"second rod of {letter}")]
-        near = [axis_text(direction) for direction in (axis, aside)]
+        near = [axis, aside]
         axes = {REVOLUTE: near[:1], UNIVERSAL: near, SPHERICAL: []}
         corners = [f"{letter}{end}" for end in "abcd"]
         at_near, at_far = _NEAR[element.kind], _FAR[element.kind]
@@ -218,26 +215,6 @@ class LimbDrawing:
             moved = (aside[0] * share, aside[1] * share, aside[2] * share)
             inside = row.within(place, count, stations(branch), moved, branch_number)
             self._series(branch, parent, child, inside)
-
-
-def axis_text(axis: Vector) -> str:
-    """An axis as a mechanism's file writes it.
-
-    >>> axis_text((0.0, -1.0, 0.0)), axis_text((0.6, 0.0, 0.8))
-    ('"-y"', '[0.6, 0, 0.8]')
-    """
-    text = direction_text(axis)
-    return f'"{text}"' if text.strip("-") in AXES else f"[{', '.join(text.split(','))}]"
-
-
-def point_text(point: Point) -> str:
-    """A point as a mechanism's file writes it.
-
-    >>> point_text((dimension("R"), Linear(), Linear()))
-    '["R", 0, 0]'
-    """
-    texts = [part.text() for part in point]
-    return "[" + ", ".join(text if text == "0" else f'"{text}"' for text in texts) + "]"
 
 
 def _named(elements: Sequence[Element], names: Iterator[str]) -> tuple[Element, ...]:

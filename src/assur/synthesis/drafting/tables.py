@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from assur.joints.joint_type import JointType
 from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.linear import Point
+from assur.topology.directions import Vector
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """A parameter of the file: its default value, what it means, and what it may be."""
+    """A parameter of the file: its default value, what it means, what it may be, and its unit where it is no length."""
 
     name: str
     value: float
     meaning: str
     sign: str = "any"
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class DraftLink:
 
 @dataclass(frozen=True)
 class DraftJoint:
-    """A joint; `axes` and `pitch` stand as the file writes them."""
+    """A joint; its axes as unit vectors, or one along the vector `leg` between two joints; `pitch` as a formula."""
 
     name: str
     type: JointType
@@ -37,8 +40,9 @@ class DraftJoint:
     child: str
     at: Point
     child_at: Point
-    axes: tuple[str, ...] = ()
+    axes: tuple[Vector, ...] = ()
     pitch: str = ""
+    leg: Point | None = None
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,7 @@ class Template:
         angles: where the limbs stand around z, in degrees.
         members: places of the limbs among the chains.
         text: the limb at 0 degrees in notation.
+        home: joint -> values in deg and mm, where they are not all zero.
         order: for each joint of the chain, branches flattened, the joint of the tables that stands for it.
     """
 
@@ -83,3 +88,4 @@ class Template:
     chain: DraftChain | None
     order: tuple[str, ...]
     knee: Knee | None = None
+    home: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
