@@ -150,6 +150,8 @@ def excluded(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArr
 
 def certain(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArray[np.bool_]:
     """Where (N,) every inequality certainly holds all over a box."""
+    if not len(boxes.low):
+        return np.zeros(0, dtype=bool)
     _, positive = conditions(Intervals(), parts(boxes), labels)
     sure = np.ones(len(boxes.low), dtype=bool)
     for value in positive:
@@ -184,14 +186,17 @@ def _zero_part(conditions: Conditions, labels: IntArray, ns: Any, x: tuple[Any, 
 
 def _halved(boxes: Interval, labels: IntArray, size: FloatArray, smallest: float) -> tuple[Interval, IntArray]:
     """Both halves of each box, across its widest coordinate against the scale; halves of these while they are few."""
+    shares = boxes.width / size
     while len(boxes.low):
-        rows, widest = np.arange(len(boxes.low)), np.argmax(boxes.width / size, axis=-1)
+        rows, widest = np.arange(len(boxes.low)), np.argmax(shares, axis=-1)
         cut = boxes.middle[rows, widest]
         below, above = boxes.high.copy(), boxes.low.copy()
         below[rows, widest], above[rows, widest] = cut, cut
-        boxes = Interval.of(np.concatenate([boxes.low, above]), np.concatenate([below, boxes.high]))
+        low, high = np.concatenate([boxes.low, above]), np.concatenate([below, boxes.high])
+        boxes = Interval(low, high, np.concatenate([boxes.defined, boxes.defined]))
         labels = np.concatenate([labels, labels])
-        if len(boxes.low) > FEW or np.min(np.max(boxes.width / size, axis=-1)) < smallest:
+        shares = boxes.width / size
+        if len(boxes.low) > FEW or np.min(np.max(shares, axis=-1)) < smallest:
             break
     return boxes, labels
 

@@ -21,7 +21,7 @@ def recorded():
 
 def test_a_folded_program_gives_the_same_bounds_with_fewer_operations():
     tape, numbers = recorded(), [as_interval(0.1), as_interval(7.0)]
-    program, constants = folded(tape, numbers)
+    program, constants = folded(tape).varying, folded(tape).numbers(numbers)
     assert len(program.operations) < len(tape.operations) - 3
     assert {item.name for item in program.operations} >= {"varying", "uniform", "root"}
     x = Interval.of(np.array([2.0, 1.0, -3.0]), np.array([2.5, 4.0, 1.0]))
@@ -34,7 +34,8 @@ def test_a_folded_program_gives_the_same_bounds_with_fewer_operations():
 
 def test_the_program_over_slopes_does_what_sloped_numbers_do():
     """Recorded and read from intervals, or step by step: the same enclosures, roots and magnitudes too."""
-    tape, constants = folded(recorded(), [as_interval(0.1), as_interval(7.0)])
+    parts = folded(recorded())
+    tape, constants = parts.varying, parts.numbers([as_interval(0.1), as_interval(7.0)])
     x = Interval.of(np.array([2.0, 1.0, -3.0]), np.array([2.5, 4.0, 1.0]))
     numbers = [coordinate(x, x.middle, 0, 1)]
     step_by_step = tape.evaluate(numbers, constants, SlopedNumbers())

@@ -114,9 +114,9 @@ def test_kernels_hold_no_number_that_was_rounded(monkeypatch, name):
     """A third written as 1 / 3 would be rounded before intervals see it."""
     tapes, true = [], module.folded
 
-    def kept(tape, uniform):
+    def kept(tape):
         tapes.append(tape)
-        return true(tape, uniform)
+        return true(tape)
 
     monkeypatch.setattr(module, "folded", kept)
     criteria(assur.load(name), factors=("parallel", "serial", "constraint"))

@@ -11,6 +11,7 @@ decided exactly, of the floats that the axes are. Rounding of lengths is covered
 from __future__ import annotations
 
 import heapq
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -148,7 +149,7 @@ def _length(vector: FloatArray, axis: FloatArray | None) -> float:
     """Length of a vector, or of its part across an axis."""
     if axis is not None:
         vector = vector - axis * (axis @ vector) / (axis @ axis)
-    return float(np.linalg.norm(vector))
+    return math.hypot(*vector.tolist())
 
 
 def _point(joint: Joint, link: str) -> FloatArray:

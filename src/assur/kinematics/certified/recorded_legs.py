@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from types import SimpleNamespace
 from typing import Any
 
@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from assur.kinematics.certified.given import joint_inputs
 from assur.kinematics.certified.legs import Legs, conditions_of
 from assur.kinematics.modes import sign_names
+from assur.kinematics.turns import periodic_inputs
+from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.branch_and_prune import Existing
 from assur.numerics.dual import Dual, DualIntervals
@@ -21,8 +23,8 @@ from assur.numerics.intervals.functions import cosine_sine
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.intervals.shapes import broadcast, stack
 from assur.numerics.recording.interval_program import IntervalProgram
-from assur.numerics.recording.interval_tapes import folded, with_derivatives
-from assur.numerics.recording.tape import Recorder, Tape
+from assur.numerics.recording.interval_tapes import FoldedTape, folded, with_derivatives
+from assur.numerics.recording.tape import Recorded, Recorder
 
 IntArray = NDArray[np.intp]
 
@@ -46,19 +48,20 @@ class RecordedLegs:
         values = [as_interval(number.value if isinstance(number, Dual) else number) for number in numbers]
         given = self._varying(values, labels)
         if isinstance(ns, DualIntervals):
-            found = self._differentiated(given, self._constants[False])
-            return [self._dual(found, f"zero {k}") for k in range(self._count)], ()
+            outputs = self._programs.derivative(given, [*self._constants[False], as_interval(1.0)])
+            return [self._dual(outputs, f"zero {k}") for k in range(len(self.legs.record.inputs))], ()
         clamped = isinstance(ns, Existing)
-        found = self._programs[clamped](given, self._constants[clamped])
-        zero, positive = ([found[name] for name in found if name.startswith(kind)] for kind in ("zero", "positive"))
+        outputs = self._programs.values[clamped](given, self._constants[clamped])
+        zero, positive = ([outputs[name] for name in outputs if name.startswith(kind)] for kind in ("zero", "positive"))
         return zero, positive
 
     def _varying(self, values: Sequence[Interval], labels: IntArray) -> list[Interval]:
         """Numbers of the tape: lengths, cosines and sines, signs."""
-        found: list[Interval] = []
+        components: list[Interval] = []
         for name, value in zip(self.legs.record.platform.pose, values, strict=True):
-            found += cosine_sine(value) if is_angle(name) else (value,)
-        return [*found, *(as_interval(row) for row in self.legs.modes[labels].T)]
+            components += cosine_sine(value) if is_angle(name) else (value,)
+        sure = np.ones(len(labels), dtype=bool)
+        return [*components, *(Interval(row, row, sure) for row in self.legs.modes[labels].T)]
 
     def _dual(self, intervals: dict[str, Interval], name: str) -> Dual:
         """An output with its derivatives (m, N)."""
@@ -68,54 +71,55 @@ class RecordedLegs:
         return Dual(intervals[name], stack([broadcast(rate, count) for rate in rates], axis=0))
 
     @cached_property
-    def _recorded(self) -> tuple[Tape, tuple[Interval, ...]]:
-        """The kernel over recorded numbers, and what is uniform in it."""
-        record, recorder = self.legs.record, Recorder()
-        uniform: list[Interval] = []
-
-        def given(name: str, value: Any) -> Any:
-            uniform.append(as_interval(value))
-            return recorder.uniform(name)
-
-        pose = tuple(
-            (recorder.varying(f"cos {name}"), recorder.varying(f"sin {name}"))
-            if is_angle(name)
-            else recorder.varying(name)
-            for name in record.platform.pose
-        )
-        sign = SimpleNamespace(**{name: recorder.varying(f"sign {name}") for name in sign_names(record, "inverse")})
-        p = SimpleNamespace(**{name: given(name, value) for name, value in vars(record.values).items()})
-        wanted = tuple(
-            tuple(given(f"input {k} {end}", part) for end, part in enumerate(item))
-            if isinstance(item, tuple)
-            else given(f"input {k}", item)
-            for k, item in enumerate(joint_inputs(record, self.legs.inputs))
-        )
-        zero, positive = conditions_of(record, recorder, p, pose, sign, wanted)
-        outputs = {f"zero {k}": value for k, value in enumerate(zero)}
-        return recorder.tape(outputs | {f"positive {k}": value for k, value in enumerate(positive)}), tuple(uniform)
+    def _constants(self) -> dict[bool, tuple[Interval, ...]]:
+        """What the programs take for all boxes; clamped or not."""
+        given = [as_interval(value) for value in vars(self.legs.record.values).values()]
+        for value in joint_inputs(self.legs.record, self.legs.inputs):
+            given += map(as_interval, value) if isinstance(value, tuple) else [as_interval(value)]
+        return {clamped: self._programs.folded.numbers(given, clamped=clamped) for clamped in (False, True)}
 
     @property
-    def _count(self) -> int:
-        return len(self.legs.record.inputs)
+    def _programs(self) -> LegPrograms:
+        return leg_programs(self.legs.record)
 
-    @cached_property
-    def _folded(self) -> dict[bool, tuple[Tape, tuple[Interval, ...]]]:
-        return {clamped: folded(*self._recorded, clamped=clamped) for clamped in (False, True)}
 
-    @cached_property
-    def _constants(self) -> dict[bool, tuple[Interval, ...]]:
-        return {clamped: numbers for clamped, (_, numbers) in self._folded.items()}
+@dataclass(frozen=True, eq=False)
+class LegPrograms:
+    """The conditions of a mechanism's legs, for any inputs.
 
-    @cached_property
-    def _programs(self) -> dict[bool, IntervalProgram]:
-        return {clamped: IntervalProgram(tape, clamped) for clamped, (tape, _) in self._folded.items()}
+    Attributes:
+        folded: the conditions; uniform are parameters and inputs, varying the pose and the signs of a working mode.
+        values: them over intervals, roots of negative numbers defined or not.
+        derivative: them beside their derivatives.
+    """
 
-    def _differentiated(self, given: Sequence[Interval], constants: Sequence[Interval]) -> dict[str, Interval]:
-        return self._derivative(given, [*constants, as_interval(1.0)])
+    folded: FoldedTape
+    values: dict[bool, IntervalProgram]
+    derivative: IntervalProgram
 
-    @cached_property
-    def _derivative(self) -> IntervalProgram:
-        names = self.legs.record.platform.pose
-        angles = {name: (f"cos {name}", f"sin {name}") for name in names if is_angle(name)}
-        return IntervalProgram(with_derivatives(self._folded[False][0], angles, names))
+
+@lru_cache(maxsize=16)
+def leg_programs(record: MechanismRecord) -> LegPrograms:
+    """The programs of a mechanism, recorded once.
+
+    >>> from assur.model.registry import load_record
+    >>> leg_programs(load_record("fivebar")).folded.varying.varying
+    ('x', 'y', 'sign s1', 'sign s2')
+    """
+    recorder, names = Recorder(), record.platform.pose
+    pose = tuple(_recorded(recorder.varying, name, is_angle(name)) for name in names)
+    sign = SimpleNamespace(**{name: recorder.varying(f"sign {name}") for name in sign_names(record, "inverse")})
+    p = SimpleNamespace(**{name: recorder.uniform(name) for name in vars(record.values)})
+    given = tuple(_recorded(recorder.uniform, f"input {k}", same) for k, same in enumerate(periodic_inputs(record)))
+    zero, positive = conditions_of(record, recorder, p, pose, sign, given)
+    outputs = {f"zero {k}": value for k, value in enumerate(zero)}
+    outputs |= {f"positive {k}": value for k, value in enumerate(positive)}
+    parts = folded(recorder.tape(outputs))
+    angles = {name: (f"cos {name}", f"sin {name}") for name in names if is_angle(name)}
+    derivative = IntervalProgram(with_derivatives(parts.varying, angles, names))
+    return LegPrograms(parts, {own: IntervalProgram(parts.varying, own) for own in (False, True)}, derivative)
+
+
+def _recorded(new: Callable[[str], Recorded], name: str, is_pair: bool) -> Recorded | tuple[Recorded, Recorded]:
+    """A length, or cosine and sine of an angle."""
+    return (new(f"cos {name}"), new(f"sin {name}")) if is_pair else new(name)

@@ -95,8 +95,10 @@ class Interval:
     @property
     def middle(self) -> FloatArray:
         """A float (...) inside: the middle, or a finite number where a bound is infinite."""
-        low, high = np.nan_to_num(self.low), np.nan_to_num(self.high)
-        return np.asarray(np.clip(0.5 * low + 0.5 * high, self.low, self.high))
+        half = _quiet(np.add, 0.5 * self.low, 0.5 * self.high)
+        if not np.isfinite(half).all():
+            half = 0.5 * np.nan_to_num(self.low) + 0.5 * np.nan_to_num(self.high)
+        return np.asarray(np.minimum(np.maximum(half, self.low), self.high))
 
     @property
     def width(self) -> FloatArray:
@@ -133,7 +135,9 @@ class Interval:
         return (other.low < self.low) & (self.high < other.high) & self.defined
 
     def __getitem__(self, index: Any) -> Interval:
-        defined = np.broadcast_to(self.defined, self.low.shape)
+        defined = self.defined
+        if defined.shape != self.low.shape:
+            defined = np.broadcast_to(defined, self.low.shape)
         return Interval(self.low[index], self.high[index], defined[index])
 
     def __pos__(self) -> Interval:

@@ -83,7 +83,8 @@ class IntervalProgram:
             for k, number in enumerate(items):
                 rows[0][k], rows[1][k], rows[2][k] = number.low, number.high, number.defined
         run(plan.steps, (*given, exact), answer, work, self.clamped)
-        stored = {k: Interval(*(part[row].reshape(shape) for part in answer)) for k, row in plan.rows.items()}
+        low, high, defined = (part.reshape(len(part), *shape) for part in answer)
+        stored = {k: Interval(low[row], high[row], defined[row]) for k, row in plan.rows.items()}
         return {name: stored[k] for name, k in self.tape.outputs.items()}
 
     @cached_property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from assur.numerics.intervals.interval import Interval, as_interval
@@ -11,27 +11,43 @@ from assur.numerics.intervals.rates import ClampedIntervals
 from assur.numerics.intervals.sloped import Sloped, SlopedNumbers
 from assur.numerics.number_types import Intervals
 from assur.numerics.recording.interval_program import IntervalProgram
-from assur.numerics.recording.tape import Operation, Recorded, Recorder, Tape
+from assur.numerics.recording.tape import Operation, Recorded, Recorder, Tape, pruned, without_unused
 
 
-def folded(tape: Tape, uniform: Sequence[Interval], *, clamped: bool = True) -> tuple[Tape, tuple[Interval, ...]]:
-    """The same program with everything that does not vary worked out, and the enclosures that it is given now.
+@dataclass(frozen=True, eq=False)
+class FoldedTape:
+    """A program in two parts, of which the first is worked out once.
 
-    `clamped` says whether the root of a negative number counts as defined.
+    Attributes:
+        uniform: what does not vary; its outputs are the uniform numbers of the other part, in their order.
+        varying: the rest, with the outputs of the program.
+    """
+
+    uniform: Tape
+    varying: Tape
+
+    def numbers(self, uniform: Sequence[Interval], *, clamped: bool = True) -> tuple[Interval, ...]:
+        """The uniform numbers of the varying part, from those of the program.
+
+        `clamped` says whether the root of a negative number counts as defined.
+        """
+        values = self.uniform.evaluate([], uniform, ClampedIntervals() if clamped else Intervals())
+        return tuple(map(as_interval, values.values()))
+
+
+def folded(tape: Tape) -> FoldedTape:
+    """A program with everything that does not vary apart, to be worked out once.
 
     >>> from assur.numerics.recording.tape import Recorder
     >>> recorder = Recorder()
     >>> x, p = recorder.varying("x"), recorder.uniform("p")
-    >>> program, numbers = folded(recorder.tape({"f": x + p * p}), [as_interval(3.0)])
-    >>> [item.name for item in program.operations], bool(numbers[0].contains(9.0))
-    (['varying', 'uniform', '+'], True)
+    >>> program = folded(recorder.tape({"f": x + p * p}))
+    >>> [item.name for item in program.varying.operations], program.numbers([as_interval(3.0)])[0].contains(9.0)
+    (['varying', 'uniform', '+'], array(True))
     """
     varies: list[bool] = []
     for operation in tape.operations:
         varies.append(operation.name == "varying" or any(varies[k] for k in operation.arguments))
-    every = replace(tape, outputs={str(k): k for k in range(len(varies))})
-    ns = ClampedIntervals() if clamped else Intervals()
-    values = every.evaluate([as_interval(0.0)] * len(tape.varying), uniform, ns)
     needed = {*tape.outputs.values()}
     needed.update(
         k
@@ -40,7 +56,7 @@ def folded(tape: Tape, uniform: Sequence[Interval], *, clamped: bool = True) -> 
         for k in operation.arguments
     )
     operations: list[Operation] = []
-    numbers: list[Interval] = []
+    constants: dict[str, int] = {}
     place: dict[int, int] = {}
     for k, operation in enumerate(tape.operations):
         if varies[k]:
@@ -51,11 +67,11 @@ def folded(tape: Tape, uniform: Sequence[Interval], *, clamped: bool = True) -> 
             operations.append(operation)
         else:
             operations.append(Operation("uniform"))
-            numbers.append(as_interval(values[str(k)]))
+            constants[f"constant {len(constants)}"] = k
         place[k] = len(operations) - 1
-    names = tuple(f"constant {k}" for k in range(len(numbers)))
     outputs = {name: place[k] for name, k in tape.outputs.items()}
-    return Tape(tuple(operations), tape.varying, names, outputs), tuple(numbers)
+    same, _ = without_unused(pruned(tape.operations, tape.varying, tape.uniform, constants))
+    return FoldedTape(same, Tape(tuple(operations), tape.varying, tuple(constants), outputs))
 
 
 @dataclass(frozen=True, eq=False)

@@ -157,8 +157,9 @@ def criteria(
     wanted = {name: value for values in kinds.values() for name, value in values.items()}
     tape, radicands, roots = with_radicands(recorder.tape({**margins, **regular, **wanted}), tuple(margins))
     names = {kind: tuple(values) for kind, values in kinds.items()}
-    program, numbers = folded(tape, [uniform[name] for name in tape.uniform])
-    return Criteria(poses, program, numbers, tuple(margins), radicands, tuple(regular), roots, names)
+    program = folded(tape)
+    numbers = program.numbers([uniform[name] for name in tape.uniform])
+    return Criteria(poses, program.varying, numbers, tuple(margins), radicands, tuple(regular), roots, names)
 
 
 def _factors(form: ClosedForm, values: Mapping[str, Any], kinds: Sequence[str]) -> dict[str, dict[str, Any]]:
