@@ -13,6 +13,7 @@ from assur.errors import AssurError, UsageError
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import faults
 from assur.model.dimensions import with_parameters
@@ -20,8 +21,10 @@ from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import topology_names
 from assur.model.topologies import load_topology
+from assur.performance.indices import indices_at
 from assur.synthesis.drafting.drafting import Drafted, drafted
 from assur.synthesis.drafting.facts import facts
+from assur.synthesis.drafting.homes import remarks
 from assur.synthesis.drafting.repeating import repeated
 from assur.topology.notation import parse_chains
 from catalogue import each
@@ -194,3 +197,33 @@ def test_the_title_has_the_limbs_as_they_stand():
 def test_screws_are_drafted_without_a_word_about_singularities(chains):
     """Their leads are short against the links, which makes them slow and not singular."""
     assert drafted(parse_chains(chains), PATH).notes == ()
+
+
+@pytest.mark.parametrize(
+    "chains",
+    [
+        ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"],
+        [chain.text for chain in repeated("P[x] R[y] S", 3)],
+        ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
+    ],
+)
+def test_home_is_not_at_the_end_of_a_leg_s_reach(chains):
+    record = read(drafted(parse_chains(chains), PATH))
+    motion = instantaneous(record, home_values(record))
+    assert float(motion.measures["input"]) > 0.25
+
+
+def test_a_large_condition_number_at_home_is_said():
+    record = read(drafted(repeated("R[z] R[z] R[z]", 3), PATH))
+    assert remarks(record) == ()
+    turned = with_parameters(record, beta=20.0)
+    condition = float(indices_at(turned, home_values(turned)).condition_number)
+    assert condition > 50
+    assert [f"is {condition:.0f}," in said for said in remarks(turned)] == [True]
+
+
+def test_a_home_near_the_end_of_a_leg_s_reach_is_said():
+    """Rods of a linear Delta that lie almost level, across their rails."""
+    record = read(drafted(repeated("P[z] P(4S)[y]", 3), PATH))
+    assert remarks(record) == ()
+    assert "the end of a leg's reach" in remarks(with_parameters(record, l1=100.3))[0]

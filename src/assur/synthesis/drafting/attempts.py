@@ -80,9 +80,12 @@ class DraftQuestion:
         drawn = draft(self.chains, layout)
         if self.coordinates:
             return self._written(drawn, moved=moved)
-        made = self._written(by_lengths(drawn), moved=moved)
         # where loops close for special dimensions alone, rounded ones may not do
-        return self._written(by_lengths(drawn, rounded=False), moved=moved) if made.unreadable else made
+        for rounded, polar in ((True, True), (True, False), (False, False)):
+            made = self._written(by_lengths(drawn, rounded=rounded, polar=polar), moved=moved)
+            if not made.unreadable:
+                break
+        return made
 
     def _written(self, drawn: Draft, *, moved: bool) -> Attempt:
         driven = _inputs(self.chains, drawn, self.inputs)

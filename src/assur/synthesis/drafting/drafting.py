@@ -13,14 +13,13 @@ from assur.kinematics.naming import sign_meanings
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
+from assur.synthesis.drafting.homes import CLEAR, remarks
 from assur.synthesis.drafting.inputs import inputs_for
 from assur.synthesis.drafting.layout import LAYOUTS
+from assur.synthesis.drafting.limbs_apart import limbs_apart
 from assur.topology.analysis import Mode
 from assur.topology.chains import Chain, InnerLoop
 from assur.topology.facts import Topology
-
-CLEAR = 0.02
-"""Least measure of singularity (a sine) of a home that is far enough from singular."""
 
 GOOD = 0.3
 """A home that is so far from singular is taken at once."""
@@ -53,7 +52,7 @@ def drafted(
     there, in every link the same ones, so that the loops close whatever these are.
 
     Args:
-        chains: limbs from base to platform.
+        chains: limbs from base to platform; of one that is a loop and nothing else, each branch is a limb.
         path: of the file, whose stem is the mechanism's name; nothing is written.
         actuate: actuated joints as "limb.joint", counted from 1; by default the first of each branch that determine it.
         coordinates: whether the parameters are coordinates of joints at home instead.
@@ -71,6 +70,7 @@ def drafted(
         ('t²(⊥R1) r¹(∥R1)', True)
     """
     name = mechanism_name(path)
+    chains, actuate = limbs_apart(chains, actuate)
     if len(chains) == 1 and not any(isinstance(element, InnerLoop) for element in chains[0].elements):
         raise UsageError(
             "one open chain closes no loop; a parallel mechanism needs two limbs or more, or an inner loop",
@@ -99,13 +99,16 @@ def drafted(
         singular += [made for made in sound if made.clearance < CLEAR]
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
-            note = "home is singular, or nearly so, in every layout that was tried: change the places of joints"
-            return Drafted(_with_names(made), topology, (note,))
+            return _drafted(made, topology)
     listed = "; ".join(list(reasons)[:3])
     raise UsageError(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
         hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
     )
+
+
+def _drafted(made: Attempt, topology: Topology) -> Drafted:
+    return Drafted(_with_names(made), topology, () if made.record is None else remarks(made.record))
 
 
 def _with_names(made: Attempt) -> str:

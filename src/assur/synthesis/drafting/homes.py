@@ -12,8 +12,18 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import motions
 from assur.model.mechanism import MechanismRecord
+from assur.performance.indices import indices_at
 
 FloatArray = NDArray[np.float64]
+
+CLEAR = 0.02
+"""Least measure of singularity (a sine) of a home that is far enough from singular."""
+
+BENT = 0.1
+"""Least measure with the platform locked (a sine) of a home in which legs are far from the end of their reach."""
+
+WELL = 50.0
+"""A larger condition number at home is said."""
 
 AWAY = np.array([30.0, 20.0, 15.0, 0.0, 0.0, 0.0])
 STEP = 0.2
@@ -58,3 +68,17 @@ def clearance(record: MechanismRecord) -> float:
     if any(bool(holds) for holds in motion.types.values()):
         return 0.0
     return min(float(measure) for measure in motion.measures.values())
+
+
+def remarks(record: MechanismRecord) -> tuple[str, ...]:
+    """What a reader should know of home: singular, at the end of a leg's reach, badly conditioned; else nothing."""
+    if clearance(record) < CLEAR:
+        return ("home is singular, or nearly so, in every layout that was tried: change the dimensions",)
+    home = home_values(record)
+    said = []
+    if float(instantaneous(record, home).measures["input"]) < BENT:
+        said.append("home is near the end of a leg's reach in every layout that was tried: change the dimensions")
+    condition = float(indices_at(record, home).condition_number)
+    if condition > WELL:
+        said.append(f"the condition number at home is {condition:.0f}, which is large: change the dimensions")
+    return tuple(said)

@@ -35,6 +35,7 @@ class DraftLayout:
         side: how far it stands to the side.
         twist: how far its end on the platform stands to the side.
         rough: how far stations stand away from all this, each in its own way.
+        wide: by how much farther the base's joints stand from the middle.
         nice: whether axes that were left general are chosen to look well, else they stay arbitrary.
         parts: into how many templates a family of limbs is divided.
     """
@@ -43,6 +44,7 @@ class DraftLayout:
     side: float = 0.0
     twist: float = 0.0
     rough: float = 0.0
+    wide: float = 1.0
     nice: bool = True
     parts: int = 1
 
@@ -55,6 +57,13 @@ PLAIN = (
     DraftLayout(side=120.0, twist=100.0),
     DraftLayout(knee=150.0, side=100.0, twist=-60.0),
     DraftLayout(knee=130.0, side=60.0, twist=-40.0, rough=20.0),
+    # bent farther, and with feet farther apart, where legs would end near their reach
+    DraftLayout(wide=2.0),
+    DraftLayout(wide=2.0, side=60.0, twist=-40.0),
+    DraftLayout(knee=250.0, side=150.0, twist=100.0),
+    DraftLayout(wide=1.7, knee=200.0, side=150.0, twist=-80.0),
+    DraftLayout(knee=200.0, side=150.0, twist=-80.0),
+    DraftLayout(wide=2.0, knee=200.0, side=150.0, twist=100.0),
 )
 DIVIDED = (
     DraftLayout(twist=80.0, parts=2),
@@ -88,7 +97,12 @@ class Stand:
         """
         arch = math.sin(math.pi * share)
         rough = layout.rough
-        out = self.base + (self.platform - self.base) * share + layout.knee * arch + rough * self._own(station)
+        out = (
+            self.base * layout.wide
+            + (self.platform - self.base * layout.wide) * share
+            + layout.knee * arch
+            + rough * self._own(station)
+        )
         aside = self.sense * (layout.side * arch + layout.twist * share) + rough * self._own(station + 3)
         up = 0.0 if self.flat else HEIGHT * share + rough * self._own(station + 5)
         cosine, sine = math.cos(self.angle), math.sin(self.angle)

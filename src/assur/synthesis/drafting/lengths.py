@@ -30,13 +30,14 @@ COARSE = 10.0
 """What is longer is rounded to whole mm, what is shorter to tenths."""
 
 
-def by_lengths(drawn: Draft, *, rounded: bool = True) -> Draft:
+def by_lengths(drawn: Draft, *, rounded: bool = True, polar: bool = True) -> Draft:
     """The same mechanism by lengths, offsets and angles.
 
     Args:
         drawn: by coordinates at home.
         rounded: whether to whole numbers, so that home closes near to where it was drawn; else it is the same to the
             last digits.
+        polar: whether places on base and platform are told by radius and angle; else by x and y.
     """
     sizes = {size.name: size.value for size in _all_dimensions(drawn)}
     platform = np.array([0.0, 0.0, sizes.get(HEIGHT_NAME, 0.0)])
@@ -44,7 +45,7 @@ def by_lengths(drawn: Draft, *, rounded: bool = True) -> Draft:
     made = []
     for template in drawn.templates:
         home = turned_links(template, sizes, platform)
-        sizing = _Sizing(template, home, sizes, numbers, len(drawn.templates) > 1, rounded)
+        sizing = _Sizing(template, home, sizes, numbers, len(drawn.templates) > 1, rounded, polar)
         made.append(sizing.template_by_lengths())
     used = {
         name
@@ -82,6 +83,7 @@ class _Sizing:
     numbers: Mapping[str, count[int]]
     several: bool
     rounded: bool
+    polar: bool
     dimensions: list[Dimension] = field(default_factory=list)
     known: dict[tuple[str, tuple[float, ...]], Point] = field(default_factory=dict)
 
@@ -144,7 +146,15 @@ class _Sizing:
         base, part = link == BASE_LINK, self._letter(joint)
         radius, angle = math.hypot(x, y), math.degrees(math.atan2(y, x))
         across: tuple[Linear, Linear] = (Linear(), Linear())
-        if radius > NOTHING:
+        if not self.polar and abs(y) > NOTHING:
+            x_of, y_of = (
+                dimension(self._new(f"{axis}{part}", value, f"{link}: {part} along {axis.upper()}"))
+                if abs(value) > NOTHING
+                else Linear()
+                for axis, value in (("x", x), ("y", y))
+            )
+            across = (x_of, y_of)
+        elif radius > NOTHING:
             short = "a" if base else "b"
             name = self._new(
                 f"r{part}" if self.several else short, radius, f"{link}: from the Z axis to {part}", "positive"

@@ -113,7 +113,7 @@ def arranged(text: str, name: str = "") -> Arrangement:
     >>> arranged("3-RRR", "planar").options
     '--limb "R[z] R[z] R[z]" --count 3 --actuate 1.1,2.1,3.1'
     >>> arranged("3-U_P_S&UP").actuate, arranged("5-UPS").options
-    (('1.2', '2.2', '3.2'), '--limb "U P S" --count 5 --actuate 1.2,2.2,3.2,4.2,5.2')
+    (('1.2', '2.2', '3.2'), '--limb "U P S" --count 5')
     """
     titled = [entry for entry in arrangements() if _plain(text) in map(_plain, entry.also)]
     if titled:
