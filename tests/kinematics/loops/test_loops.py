@@ -7,15 +7,17 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
+from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.closure import assemble, closure_error, closure_jacobian
 from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import places, search
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import names
+from assur.model.registry import load_record, names
 from assur.synthesis.drafting.copying import copied
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
@@ -310,6 +312,24 @@ def test_a_pose_that_leaves_the_tilt_open_is_not_called_complete() -> None:
     found = solve_by_loops(mechanism, pose=pose_of(mechanism, mechanism.home_values))
     assert not found.complete
     assert "tilt" in found.right
+
+
+def test_angles_that_a_pose_leaves_open_prove_nothing_where_they_are_not_zero(tmp_path: Path) -> None:
+    """A loop carries the platform on an axis of the plane's: phi comes with theta and psi, and is none of the pose."""
+    path = tmp_path / "mine.toml"
+    chains = parse_chains(["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y]", "U P S", "U P S"])
+    path.write_text(drafted(chains, path).text, encoding="utf-8")
+    record = load_record(path)
+    assert record.platform.pose == ("y", "z", "theta", "psi")
+    at = next(joints for joints in assemblies_by_chance(record) if abs(_phi(record, joints)) > 0.1)
+    found = solve_by_loops(record, pose=pose_of(record, at))
+    assert not found.complete
+    assert "tilt" in found.right
+
+
+def _phi(record: MechanismRecord, joints: np.ndarray) -> float:
+    turned = frames(record, joints)[record.platform.link][0]
+    return float(np.arctan2(turned[1, 0], turned[0, 0]))
 
 
 @pytest.mark.parametrize("given", [{}, {"inputs": [0.0, 0.0], "pose": [0.0, 0.0]}, {"inputs": [[0.0, 0.0]]}])

@@ -30,6 +30,9 @@ from assur.work import stage
 FloatArray = NDArray[np.float64]
 
 
+OPEN = "the pose leaves the platform's tilt open"
+
+
 @dataclass(frozen=True, eq=False)
 class LoopSolutions:
     """Assemblies that were found loop by loop.
@@ -163,6 +166,8 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
         turning = turnings(record, locked, question.orientation, parallel=parallel)
         equations = system(record, turning, locked, question.place)
     except NoAssemblyError as error:
+        if question.tilt_open:
+            return _nothing(record, False, f"not proved, since {OPEN}: with those taken as zero {error}")
         return _nothing(record, True, f"there is no assembly: {error}")
     except NotCirclesError as error:
         return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {error}")
@@ -184,9 +189,7 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
         note += "; screws have the turns of home"
     right = _right(equations, found) + note
     if question.tilt_open:
-        return LoopSolutions(
-            joints, False, f"not proved, since the pose leaves the platform's tilt open: {right}", found.looked
-        )
+        return LoopSolutions(joints, False, f"not proved, since {OPEN}: {right}", found.looked)
     sure = np.repeat(found.bent <= DOUBTFUL, len(starts) // max(len(found.bent), 1))
     if not sure.all() and len(question.closed(starts[sure])) < len(joints):
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", found.looked)
