@@ -20,7 +20,7 @@ from assur.synthesis.drafting.limb import AXES, BASE_LINK, HEIGHT_NAME, PLATFORM
 from assur.synthesis.drafting.linear import Linear, Point, dimension
 from assur.synthesis.drafting.tables import Dimension, DraftJoint, Template
 from assur.synthesis.drafting.templates import Draft
-from assur.synthesis.drafting.turned import TurnedLinks, number, turned_links
+from assur.synthesis.drafting.turned import TurnedLinks, is_shared, number, turned_links
 
 FloatArray = NDArray[np.float64]
 NOTHING = 1e-6
@@ -66,11 +66,6 @@ def _all_dimensions(drawn: Draft) -> list[Dimension]:
 def _is_kept(name: str) -> bool:
     """Whether a dimension of a drawn limb is a length already: a width, a pitch, a distance from a shared centre."""
     return name.endswith(("_w", "_d", "_pitch"))
-
-
-def _is_shared(name: str) -> bool:
-    """Whether a dimension says where a point is that limbs share."""
-    return name.endswith("_d") or name == HEIGHT_NAME or name.startswith("centre")
 
 
 @dataclass
@@ -119,7 +114,7 @@ class _Sizing:
         """A joint's place in a link's frame: of dimensions that are kept, or of new ones."""
         turn = self.home.turns[link]
         names = [name for part in drawn for name, _ in part.terms]
-        if names and all(_is_shared(name) for name in names):
+        if names and all(name == HEIGHT_NAME or is_shared(name) for name in names):
             return drawn
         widths = tuple(Linear(tuple(term for term in part.terms if term[0].endswith("_w"))) for part in drawn)
         shift = number((widths[0], widths[1], widths[2]), self.sizes)
@@ -172,7 +167,7 @@ class _Sizing:
     def _linked(self, joint: DraftJoint, link: str, local: FloatArray) -> Point:
         """In a link: its length along the axis that has most of it, and offsets; beside a slide these alone."""
         parts = [Linear(), Linear(), Linear()]
-        along = None if self._slides(link) else int(np.argmax(np.abs(local)))
+        along = None if self._slides(link) else int(np.argmax(np.abs(local) * self._across(link)))
         for place in sorted(range(3), key=lambda axis: axis != along):
             value = float(local[place])
             if abs(value) > NOTHING:
@@ -186,6 +181,13 @@ class _Sizing:
         letter = "e" if aside else "l"
         meaning = f"{which}: offset along {aside}" if aside else f"{which}: length"
         return self._new(f"{letter}{next(self.numbers[letter])}", value, meaning, "any" if aside else "positive")
+
+    def _across(self, link: str) -> FloatArray:
+        """Axes (3,) of a link across that of the joint before it as 1, others as little: no length is along that."""
+        first = next(joint for joint in self.template.joints if joint.child == link)
+        if first.type.turns != 1 or first.type.ball:
+            return np.ones(3)
+        return np.where(np.abs(first.axes[0]) > NOTHING, NOTHING, 1.0)
 
     def _slides(self, link: str) -> bool:
         """Whether a P moves along a link with a stroke, which is its length."""

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joints.universal import UNIVERSAL
-from assur.numerics.rotations import about_axis, taking, to_vector
+from assur.numerics.rotations import about_axis, taking
+from assur.synthesis.drafting.joint_values import EXACT, across, angle_about, joint_values
 from assur.synthesis.drafting.limb import BASE_LINK, PLATFORM_LINK
 from assur.synthesis.drafting.linear import Point
 from assur.synthesis.drafting.tables import DraftJoint, Template
 
 FloatArray = NDArray[np.float64]
-EXACT = 1e-9
 SHORT = 1.0
 """A link that is shorter, in mm, has no direction."""
 
@@ -53,6 +53,11 @@ def number(point: Point, sizes: Mapping[str, float]) -> FloatArray:
     [0.0, 18.0, -24.0]
     """
     return np.array([sum(factor * sizes[name] for name, factor in part.terms) for part in point])
+
+
+def is_shared(name: str) -> bool:
+    """Whether a dimension says where a point is that limbs share."""
+    return name.endswith("_d") or name.startswith("centre")
 
 
 def turned_links(template: Template, sizes: Mapping[str, float], platform: FloatArray) -> TurnedLinks:
@@ -88,6 +93,7 @@ class _Drawn:
             self.origins.setdefault(joint.child, self.points[joint.name] - number(joint.child_at, sizes))
             if joint.leg is not None:
                 self.legs[joint.name] = number(joint.leg, sizes)
+        self.shared = {joint.name for joint in self.joints if any(map(is_shared, _names(joint)))}
         self.roots = {link: link for link in self.origins}
         for joint in self.joints:
             if _is_slider(joint) or joint.type.screw:
@@ -126,9 +132,9 @@ class _Drawn:
         near = _universal_alone(ends)
         if near is not None:
             return _Turn(_about_both(near, self.roots[near.child] == root, along, way), along)
-        if np.linalg.norm(_across(way, axis)) < SHORT:
+        if np.linalg.norm(across(way, axis)) < SHORT:
             return self.still(root)
-        return _Turn(about_axis(axis, np.array(_angle(axis, along, way))), along)
+        return _Turn(about_axis(axis, np.array(angle_about(axis, along, way))), along)
 
     def turned(self, turns: Mapping[str, _Turn]) -> TurnedLinks | None:
         """Everything at home; None where a joint does not allow how its links are turned."""
@@ -157,14 +163,41 @@ class _Drawn:
             strokes[joint.name] = float(way @ (rotations[joint.parent] @ own))
             if not last:
                 origins[joint.child] = points[joint.name] + strokes[joint.name] * (rotations[joint.parent] @ own)
+        self._slide_along_axes(points, origins, rotations, slides, strokes)
         values = {}
         for joint in self.joints:
             relative = rotations[joint.parent].T @ rotations[joint.child]
-            own_values = _values(joint, relative, strokes.get(joint.name, 0.0))
+            own_values = joint_values(joint, relative, strokes.get(joint.name, 0.0))
             if own_values is None:
                 return None
             values[joint.name] = own_values
         return TurnedLinks(points, origins, rotations, slides, values)
+
+    def _slide_along_axes(
+        self,
+        points: dict[str, FloatArray],
+        origins: dict[str, FloatArray],
+        rotations: Mapping[str, FloatArray],
+        slides: Mapping[str, FloatArray],
+        strokes: Mapping[str, float],
+    ) -> None:
+        """Joints inside a limb, moved along their axes, where any point will do, so that links need no offset there."""
+        corners = {name for group in self.template.groups for name in group.joints}
+        owned: set[str] = {BASE_LINK, PLATFORM_LINK}
+        for joint in self.joints:
+            inside = joint.parent != BASE_LINK and joint.child not in owned
+            owned.add(joint.child)
+            if not inside or joint.name in corners or joint.name in self.shared:
+                continue
+            point = points[joint.name]
+            if joint.name in slides:
+                points[joint.name] = origins[joint.parent]
+                stroke = strokes.get(joint.name, 0.0) * (rotations[joint.parent] @ slides[joint.name])
+                origins[joint.child] = points[joint.name] + stroke
+            elif joint.type.turns == 1 and len(joint.axes) == 1 and not joint.type.screw:
+                axis = rotations[joint.parent] @ np.array(joint.axes[0])
+                points[joint.name] = point - ((point - origins[joint.parent]) @ axis) * axis
+                origins[joint.child] = points[joint.name]
 
     def _ends(self, root: str) -> list[DraftJoint]:
         """The joints between links of this orientation and others."""
@@ -205,9 +238,13 @@ class _Drawn:
             own = np.array(slider.axes[0])
             return own if axis is None or abs(own @ axis) < EXACT else None
         units = [unit for unit in np.eye(3) if axis is None or abs(unit @ axis) < EXACT]
-        rest = way if axis is None else _across(way, axis)
+        rest = way if axis is None else across(way, axis)
         nearest = max(units, key=lambda unit: abs(float(unit @ rest)) + EXACT * unit[2], default=None)
         return None if nearest is None else nearest * math.copysign(1.0, float(nearest @ rest))
+
+
+def _names(joint: DraftJoint) -> list[str]:
+    return [name for point in (joint.at, joint.child_at) for part in point for name, _ in part.terms]
 
 
 def _is_slider(joint: DraftJoint) -> bool:
@@ -233,44 +270,7 @@ def _reversed(first: DraftJoint, second: DraftJoint) -> bool:
 def _about_both(near: DraftJoint, behind: bool, along: FloatArray, way: FloatArray) -> FloatArray:
     """The rotation (3, 3) about both axes of a U that takes a direction onto that of a way, of two the smaller one."""
     outer, inner = (np.array(axis) for axis in (near.axes if behind else near.axes[::-1]))
-    start = np.array(_angle(outer, np.cross(inner, outer), way))
+    start = np.array(angle_about(outer, np.cross(inner, outer), way))
     turned = [about_axis(outer, start + half) for half in (0.0, np.pi)]
-    both = [turn @ about_axis(inner, np.array(_angle(inner, along, turn.T @ way))) for turn in turned]
+    both = [turn @ about_axis(inner, np.array(angle_about(inner, along, turn.T @ way))) for turn in turned]
     return max(both, key=lambda rotation: float(np.trace(rotation)))
-
-
-def _angle(axis: FloatArray, start: FloatArray, end: FloatArray) -> float:
-    """The angle in rad about an axis from one direction to another, as seen along it."""
-    return math.atan2(float(axis @ np.cross(start, end)), float(_across(start, axis) @ _across(end, axis)))
-
-
-def _across(vector: FloatArray, axis: FloatArray) -> FloatArray:
-    """The part of a vector across a unit vector."""
-    return np.asarray(vector - (vector @ axis) * axis)
-
-
-def _values(joint: DraftJoint, relative: FloatArray, stroke: float) -> tuple[float, ...] | None:
-    """Values, in deg and mm, at which a joint turns its child like this; None where it cannot."""
-    if joint.type.ball:
-        return tuple(np.degrees(to_vector(relative)).tolist())
-    axes = [np.array(axis) for axis in joint.type.directions(joint.axes)]
-    angles: list[float] = []
-    rest = relative
-    for step in joint.type.steps:
-        if step.kind == "slide":
-            continue
-        axis = axes[step.direction]
-        last = len(angles) == joint.type.turns - 1
-        fixed = _any_across(axis) if last else axes[1]
-        angle = _angle(axis, fixed, rest @ fixed)
-        angles.append(angle)
-        rest = about_axis(axis, np.array(-angle)) @ rest
-    if np.max(np.abs(rest - np.eye(3))) > EXACT or (joint.type.screw and abs(angles[0]) > EXACT):
-        return None
-    turned = iter(np.degrees(angles).tolist())
-    return tuple(stroke if step.kind == "slide" else next(turned) for step in joint.type.steps)
-
-
-def _any_across(axis: FloatArray) -> FloatArray:
-    unit = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    return np.asarray(_across(unit, axis))
