@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 
-from assur.cli.main import main
 from assur.figures.catalogue import left_out, names
 from assur.figures.context import Context
 from assur.figures.singular import example_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.mechanism import load
 from assur.singularity.examples import singular_examples
+from assur.synthesis.drafting.attempts import DraftQuestion
+from assur.synthesis.drafting.inputs import inputs_for
+from assur.synthesis.drafting.layout import DraftLayout
+from assur.topology.notation import parse_chains
 from assur.workspace.region import workspace
 from assur.workspace.sign_changes import ways_across
 
@@ -19,8 +22,12 @@ CHAINS = ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"]
 @pytest.fixture(scope="module")
 def drafted(tmp_path_factory):
     """A drafted mechanism in whose box det Jp changes its sign, which no path from home to a pose by chance meets."""
-    path = str(tmp_path_factory.mktemp("drafts") / "m2.toml")
-    assert main(["new", path, *(word for chain in CHAINS for word in ("--chain", chain))]) == 0
+    path = tmp_path_factory.mktemp("drafts") / "m2.toml"
+    chains = parse_chains(CHAINS)
+    inputs, topology = inputs_for(chains, None, "home")
+    question = DraftQuestion(chains, path, inputs, topology, "home", coordinates=True)
+    drawn = question.attempt(DraftLayout(knee=150.0, side=100.0, twist=-60.0), moved=False)
+    path.write_text(drawn.text, encoding="utf-8")
     record = load(path)
     return record, workspace(record, resolution=12)
 

@@ -195,8 +195,10 @@ def test_the_title_has_the_limbs_as_they_stand():
     [["R[z]@A H[z]@A", "P[z]"], ["R[z]@A H[z]@A R[x]", "P[z] R[x]"], ["R[x]@A H[x]@A R[z] R[z]", "R[z] R[z] R[z]"]],
 )
 def test_screws_are_drafted_without_a_word_about_singularities(chains):
-    """Their leads are short against the links, which makes them slow and not singular."""
-    assert drafted(parse_chains(chains), PATH).notes == ()
+    """Their leads are short against the links, which makes them slow, J badly conditioned, and nothing singular."""
+    assert not [
+        note for note in drafted(parse_chains(chains), PATH).notes if not note.startswith("the condition number")
+    ]
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,10 @@ from assur.synthesis.drafting.limbs_apart import limbs_apart
 from assur.topology.analysis import Mode
 from assur.topology.chains import Chain, InnerLoop
 from assur.topology.facts import Topology
+from assur.topology.poc import PocSet
+
+ENOUGH = 5
+"""Where so many layouts of a group are not sound, the others are not tried."""
 
 GOOD = 0.3
 """A home that is so far from singular is taken at once."""
@@ -78,24 +82,26 @@ def drafted(
         )
     inputs, topology = inputs_for(chains, actuate, mode)
     asked = DraftQuestion(chains, path, inputs, topology, mode, coordinates)
-    enough = min(topology.poc.t, max(topology.poc.dim - topology.poc.r, 1))
+    enough = _lengths_enough(topology.poc)
     reasons: dict[str, None] = {}
     singular: list[Attempt] = []
     for moved, layouts in itertools.product((False, True), LAYOUTS):
         sound: list[Attempt] = []
-        for layout in layouts:
+        for number, layout in enumerate(layouts):
+            if number >= ENOUGH and not sound:
+                break
             made = asked.attempt(layout, moved=moved)
             if made.fault or made.record is None:
                 reasons[made.fault] = None
                 continue
-            if made.clearance >= GOOD and _lengths(made) == min(len(inputs), topology.poc.t):
+            if made.clearance >= GOOD and _lengths(made) >= enough:
                 if asked.agrees(made, reasons):
-                    return Drafted(_with_names(made), topology)
+                    return _drafted(made, topology)
                 continue
             sound.append(made)
         for made in _best_first(sound, enough):
             if made.clearance >= CLEAR and asked.agrees(made, reasons):
-                return Drafted(_with_names(made), topology)
+                return _drafted(made, topology)
         singular += [made for made in sound if made.clearance < CLEAR]
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
@@ -105,6 +111,12 @@ def drafted(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
         hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
     )
+
+
+def _lengths_enough(poc: PocSet) -> int:
+    """How many lengths a pose should have: where the platform tilts, those that do not come with its rotations."""
+    own = poc.dim - poc.r if poc.r > 1 else poc.dim
+    return min(poc.t, max(own, 1))
 
 
 def _drafted(made: Attempt, topology: Topology) -> Drafted:

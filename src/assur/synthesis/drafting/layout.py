@@ -66,6 +66,7 @@ PLAIN = (
     DraftLayout(wide=2.0, knee=200.0, side=150.0, twist=100.0),
 )
 DIVIDED = (
+    DraftLayout(twist=50.0, parts=2),  # neighbouring legs do not cross
     DraftLayout(twist=80.0, parts=2),
     DraftLayout(knee=90.0, side=50.0, twist=70.0, rough=25.0, parts=2),
     DraftLayout(knee=120.0, side=50.0, twist=40.0, rough=35.0, nice=False),
