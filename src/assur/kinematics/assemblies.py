@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from assur.errors import Interrupted
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
+from assur.kinematics.limbs.inverse import inverse_by_limbs
 from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
@@ -68,7 +69,8 @@ def _assemblies(
 ) -> _Assemblies:
     if method != "search":
         asked = {"inputs": given} if problem == "direct" else {"pose": given}
-        turn = solve_by_loops(record, **asked, crossed=crossed)
+        limbs = inverse_by_limbs(record, given) if problem == "inverse" else None
+        turn = limbs if limbs and limbs.complete else solve_by_loops(record, **asked, crossed=crossed)
         if turn.complete or method == "loops" or (crossed and len(turn.joints)):
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
     interrupted = False

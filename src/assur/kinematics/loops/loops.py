@@ -83,14 +83,14 @@ def solve_by_loops(
         given = border.checked_poses(record, pose if pose is not None else ())
     if given.ndim != 1:
         raise UsageError(f"solve_by_loops: one problem at a time, not a batch of shape {given.shape[:-1]}")
-    question = _Question(record, "direct" if inputs is not None else "inverse", given)
+    question = PositionQuestion(record, "direct" if inputs is not None else "inverse", given)
     if not crossed:
         return _at_once(question, frozenset(record.generalised))
     return _with_crossed(question)
 
 
 @dataclass(frozen=True, eq=False)
-class _Question:
+class PositionQuestion:
     """Printed inputs (n,) or a pose (m,), as what is locked or where the platform is."""
 
     record: MechanismRecord
@@ -157,7 +157,7 @@ class _Question:
         return turned[same][distinct(self.record, turned[same])]
 
 
-def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
+def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSolutions:
     """The assemblies in which these generalised joints stay parallelograms."""
     record, locked = question.record, question.locked
     if record.generalised and parallel & {*crossed_parallelograms(record, home_values(record))}:
@@ -196,7 +196,7 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
     return LoopSolutions(joints, True, right, found.looked)
 
 
-def _with_crossed(question: _Question) -> LoopSolutions:
+def _with_crossed(question: PositionQuestion) -> LoopSolutions:
     """Crossed assemblies too: at once where that can be, else with some parallelograms kept, and by a search."""
     record = question.record
     names = tuple(record.generalised)

@@ -1,0 +1,180 @@
+"""Serial limbs as products of elementary motions: E1(q1) ... En(qn) takes the platform from the zeros to its pose.
+
+Axes are lines of space where all joint values of the limb are zero (R. W. Brockett 1984). A universal joint is two
+turns, a cylindrical joint a slide and a turn; a ball joint is one motion about its point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.frames import Frame, child_frame
+from assur.joint_graph.tree import joint_graph
+from assur.model.mechanism import Joint, MechanismRecord
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+
+
+class NotSerialError(Exception):
+    """A limb that is no series of turns, slides and ball joints; the message says which, and why."""
+
+
+@dataclass(frozen=True, eq=False)
+class ElementaryMotion:
+    """One motion of a serial limb.
+
+    Attributes:
+        kind: a turn about a line, a slide along it, or a ball joint about a point.
+        axis: (3,) unit vector; of a ball joint the rows (3, 3) of the frame in which its rotation vector is given.
+        point: (3,) on the line, or the ball joint's.
+        index: the first of its coordinates in the joint values.
+        sense: -1 where the limb runs through the joint from its child to its parent.
+    """
+
+    kind: Literal["turn", "slide", "ball"]
+    axis: FloatArray
+    point: FloatArray
+    index: int
+    sense: int
+
+    def moved(self, rotation: FloatArray, shift: FloatArray) -> ElementaryMotion:
+        """The same about a line that was displaced."""
+        axis = self.axis @ rotation.T
+        return ElementaryMotion(self.kind, axis, rotation @ self.point + shift, self.index, self.sense)
+
+    @property
+    def back(self) -> ElementaryMotion:
+        """The opposite motion."""
+        return ElementaryMotion(self.kind, self.axis, self.point, self.index, -self.sense)
+
+
+@dataclass(frozen=True, eq=False)
+class SerialLimb:
+    """A limb from the base to the platform.
+
+    Attributes:
+        joints: names, from the base on.
+        motions: in the same order.
+        zero: the platform's frame at joint values zero.
+    """
+
+    joints: tuple[str, ...]
+    motions: tuple[ElementaryMotion, ...]
+    zero: Frame
+
+
+@lru_cache(maxsize=64)
+def serial_limbs(record: MechanismRecord) -> tuple[SerialLimb, ...]:
+    """The limbs of a mechanism, each a series of joints from the base to the platform.
+
+    Errors:
+        NotSerialError: a limb with an inner loop, a screw, or links that hang on others.
+
+    >>> from assur.model.registry import load_record
+    >>> [limb.joints for limb in serial_limbs(load_record("planar_3rrr"))][0]
+    ('leg1.A', 'leg1.B', 'leg1.C')
+    """
+    ends = {record.base, record.platform.link}
+    limbs = [_limb(record, (name,)) for name, joint in record.joints.items() if {joint.parent, joint.child} == ends]
+    for links in _parts(record, ends):
+        own = [name for name, joint in record.joints.items() if {joint.parent, joint.child} & links]
+        if len(own) != len(links) + 1:
+            raise NotSerialError(f"{', '.join(sorted(links))} form no series of joints")
+        limbs.append(_limb(record, _in_order(record, own)))
+    order = [*record.joints]
+    return tuple(sorted(limbs, key=lambda limb: min(map(order.index, limb.joints))))
+
+
+def _parts(record: MechanismRecord, ends: set[str]) -> Iterator[set[str]]:
+    """Links that hang together, base and platform left out."""
+    left = [link for link in record.links if link not in ends]
+    while left:
+        part = [left[0]]
+        for link in part:
+            near = (joint for joint in record.joints.values() if link in (joint.parent, joint.child))
+            part += {_other(joint, link) for joint in near} - ends - {*part}
+        yield {*part}
+        left = [link for link in left if link not in part]
+
+
+def _in_order(record: MechanismRecord, names: list[str]) -> tuple[str, ...]:
+    """Joints from the base to the platform, each on the link that the one before leads to."""
+    left, link, order = [*names], record.base, list[str]()
+    while left:
+        following = [name for name in left if link in (record.joints[name].parent, record.joints[name].child)]
+        if len(following) != 1:
+            raise NotSerialError(f"{', '.join(names)} are no series from the base to the platform")
+        order += following
+        left.remove(following[0])
+        link = _other(record.joints[following[0]], link)
+    if link != record.platform.link:
+        raise NotSerialError(f"{', '.join(names)} do not end at the platform")
+    return tuple(order)
+
+
+def _limb(record: MechanismRecord, names: tuple[str, ...]) -> SerialLimb:
+    frame, link = (np.eye(3), np.zeros(3)), record.base
+    motions: list[ElementaryMotion] = []
+    for name in names:
+        joint = record.joints[name]
+        forward = joint.parent == link
+        parent = frame if forward else _parent_frame(joint, frame)
+        steps = [*_motions(record, joint, parent)]
+        motions += steps if forward else [step.back for step in reversed(steps)]
+        frame = child_frame(joint, parent, np.zeros(joint.type.freedoms)) if forward else parent
+        link = _other(joint, link)
+    return SerialLimb(names, tuple(motions), frame)
+
+
+def _motions(record: MechanismRecord, joint: Joint, parent: Frame) -> Iterator[ElementaryMotion]:
+    start = joint_graph(record).slices[joint.name].start
+    point = parent[0] @ joint.at + parent[1]
+    for step, place in joint.type.places:
+        if step.kind == "screw":
+            raise NotSerialError(f"{joint.name} is a screw")
+        axis = parent[0].T if step.kind == "ball" else parent[0] @ joint.axes[step.direction]
+        yield ElementaryMotion(step.kind, axis, point, start + place, 1)
+
+
+def _parent_frame(joint: Joint, child: Frame) -> Frame:
+    """Frame of the parent link where that of the child is given and the joint's values are zero."""
+    rotation, origin = child_frame(joint, (np.eye(3), np.zeros(3)), np.zeros(joint.type.freedoms))
+    turned = child[0] @ rotation.T
+    return turned, child[1] - turned @ origin
+
+
+def _other(joint: Joint, link: str) -> str:
+    return joint.child if joint.parent == link else joint.parent
+
+
+def displacement(motion: ElementaryMotion, value: FloatArray) -> Frame:
+    """Rotation (..., 3, 3) and shift (..., 3) of space by a turn or a slide with joint values (...)."""
+    amount = np.asarray(motion.sense * value)
+    if motion.kind == "slide":
+        return np.broadcast_to(np.eye(3), (*amount.shape, 3, 3)), amount[..., None] * motion.axis
+    turned = rotations.about_axis(motion.axis, amount)
+    return turned, motion.point - turned @ motion.point
+
+
+def applied(motion: ElementaryMotion, value: FloatArray, points: FloatArray) -> FloatArray:
+    """Points (..., 3) moved by a turn or a slide with joint values (...)."""
+    rotation, shift = displacement(motion, value)
+    return np.asarray((rotation @ points[..., None])[..., 0] + shift)
+
+
+def composed(first: Frame, second: Frame) -> Frame:
+    """One displacement after another, the second first."""
+    return first[0] @ second[0], (first[0] @ second[1][..., None])[..., 0] + first[1]
+
+
+def inverted(frame: Frame) -> Frame:
+    """The displacement back."""
+    back = np.swapaxes(frame[0], -1, -2)
+    return back, -(back @ frame[1][..., None])[..., 0]

@@ -1,0 +1,257 @@
+"""One limb closed with the platform held: all its joint values, by a point that many of its joints leave in place.
+
+A ball joint does, and so do the turns of a universal joint, or of axes that meet. The other motions, three at most,
+take that point to its place; those about it then make the rotation that is left. A rod between two ball joints may
+spin: one other motion decides the distance of the two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.frames import Frame
+from assur.kinematics.limbs.concurrent import along, ball_values, concurrent_turns
+from assur.kinematics.limbs.point_closure import distance_closure, point_closure
+from assur.kinematics.limbs.serial import (
+    ElementaryMotion,
+    NotSerialError,
+    SerialLimb,
+    applied,
+    composed,
+    displacement,
+    inverted,
+)
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+MEETING = 1e-9
+"""Distance of axes from a point, in sizes of the limb, up to which they meet there."""
+SAME = 1e-6
+"""Distance, in sizes of the limb or of a turn, up to which two of its configurations are one."""
+OTHERS = 3
+"""Motions that can be found from where they take a point."""
+
+
+@dataclass(frozen=True, eq=False)
+class LimbSolutions:
+    """All ways in which a limb closes.
+
+    Attributes:
+        limb: the limb.
+        indices: its coordinates in the joint values.
+        values: (K, k) of these.
+        bent: (K,) by how much roots were made real.
+        roots: how many complex roots were looked at.
+    """
+
+    limb: SerialLimb
+    indices: tuple[int, ...]
+    values: FloatArray
+    bent: FloatArray
+    roots: int
+
+
+def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = ()) -> LimbSolutions:
+    """A limb at a frame of the platform; ways that differ in neither points nor `driven` joint values count once.
+
+    Errors:
+        NotSerialError: no point of it is left in place by enough of its joints.
+        CurveError: it closes in infinitely many ways.
+    """
+    displaced = composed(platform, inverted(limb.zero))
+    balls = [k for k, motion in enumerate(limb.motions) if motion.kind == "ball"]
+    if len(balls) == 2:
+        rows, roots = _of_rod(limb.motions, balls[0], balls[1], displaced)
+    else:
+        rows, roots = _about_point(limb.motions, _centre(limb), displaced)
+    columns = [index for motion in limb.motions for index in _indices(motion)]
+    order = np.argsort(columns)
+    values = np.array([values for values, _ in rows]).reshape(len(rows), len(columns))[:, order]
+    bent = np.array([bent for _, bent in rows])
+    kept = _told_apart(limb.motions, values[:, np.argsort(order)], bent, driven)
+    return LimbSolutions(limb, tuple(sorted(columns)), values[kept], bent[kept], roots)
+
+
+def still_point(limb: SerialLimb) -> FloatArray | None:
+    """The point (3,) that no motion of a limb moves, if there is one.
+
+    >>> from assur.kinematics.limbs.serial import serial_limbs
+    >>> from assur.model.registry import load_record
+    >>> still_point(serial_limbs(load_record("planar_3rrr"))[0])
+    """
+    if any(motion.kind == "slide" for motion in limb.motions):
+        return None
+    centre = _centre(limb) if len(limb.motions) > 1 else None
+    return centre.point if centre is not None and centre.end - centre.start == len(limb.motions) else None
+
+
+def _size(motions: Sequence[ElementaryMotion]) -> float:
+    """A length to which the points of a limb compare."""
+    return float(np.max(np.ptp([motion.point for motion in motions], axis=0))) or 1.0
+
+
+def _indices(motion: ElementaryMotion) -> tuple[int, ...]:
+    return tuple(range(motion.index, motion.index + (3 if motion.kind == "ball" else 1)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Centre:
+    """Motions `start` to `end`, the last left out, leave a point (3,) in place."""
+
+    point: FloatArray
+    start: int
+    end: int
+
+
+def _centre(limb: SerialLimb) -> _Centre:
+    """That of the ball joint, else of the turns that leave the fewest other motions."""
+    motions = limb.motions
+    balls = [k for k, motion in enumerate(motions) if motion.kind == "ball"]
+    if len(balls) > 1:
+        raise NotSerialError(f"{', '.join(limb.joints)}: more than two ball joints")
+    centres = [_Centre(motions[k].point, k, k + 1) for k in balls] or [*_meetings(motions)]
+    best = min(centres, key=lambda centre: len(motions) - (centre.end - centre.start), default=None)
+    if best is None or len(motions) - (best.end - best.start) > OTHERS:
+        raise NotSerialError(f"{', '.join(limb.joints)}: no point that all but three freedoms leave in place")
+    return best
+
+
+def _meetings(motions: Sequence[ElementaryMotion]) -> Iterator[_Centre]:
+    """Successive turns whose axes meet in a point; a turn alone has all points of its axis, of which one is taken."""
+    size = _size(motions)
+    turns = [k for k, motion in enumerate(motions) if motion.kind == "turn"]
+    for start in turns:
+        points = [motions[start].point]
+        if start + 1 in turns:
+            points.append(_meeting(motions[start], motions[start + 1]))
+        for point in points:
+            end = start
+            while end in turns and _distance(motions[end], point) < MEETING * size:
+                end += 1
+            yield _Centre(point, start, end)
+
+
+def _distance(motion: ElementaryMotion, point: FloatArray) -> float:
+    return float(np.linalg.norm(np.cross(motion.axis, point - motion.point)))
+
+
+def _meeting(first: ElementaryMotion, second: ElementaryMotion) -> FloatArray:
+    """The point of the first axis that is nearest to the second."""
+    across = np.cross(np.cross(first.axis, second.axis), second.axis)
+    share = across @ first.axis
+    if abs(share) < MEETING:
+        return first.point
+    return first.point + first.axis * (across @ (second.point - first.point)) / share
+
+
+Rows = list[tuple[list[float], float]]
+
+
+def _about_point(motions: Sequence[ElementaryMotion], centre: _Centre, displaced: Frame) -> tuple[Rows, int]:
+    """Values of all motions, in their order, and by how much roots were made real."""
+    before, about, after = motions[: centre.start], motions[centre.start : centre.end], motions[centre.end :]
+    others = _others(before, after, displaced)
+    moved = displaced[0] @ centre.point + displaced[1]
+    closure = point_closure(others, moved, centre.point, _size([*motions, *others]))
+    rows: Rows = []
+    for values, bent in zip(closure.values, closure.bent, strict=True):
+        near, far = values[: len(before)][::-1], values[len(before) :][::-1]
+        rotation = _left(before, near, displaced, after, far)[0]
+        if about[0].kind == "ball":
+            rows.append(([*near, *ball_values(about[0], rotation), *far], bent))
+            continue
+        turned, more = concurrent_turns(about, rotation)
+        rows += [([*near, *own, *far], max(bent, other)) for own, other in zip(turned, more, strict=True)]
+    return rows, closure.roots
+
+
+def _others(
+    before: Sequence[ElementaryMotion], after: Sequence[ElementaryMotion], displaced: Frame
+) -> list[ElementaryMotion]:
+    """E_before (point) = D E_after^-1 (point) as motions of the displaced point to its place."""
+    near = [motion.back for motion in reversed(before)]
+    return near + [motion.moved(*displaced).back for motion in reversed(after)]
+
+
+def _left(
+    before: Sequence[ElementaryMotion],
+    near: Sequence[float],
+    displaced: Frame,
+    after: Sequence[ElementaryMotion],
+    far: Sequence[float],
+) -> Frame:
+    """E_before^-1 D E_after^-1."""
+    left = displaced
+    for motion, value in zip(before, near, strict=True):
+        left = composed(inverted(displacement(motion, np.asarray(value))), left)
+    for motion, value in zip(reversed(after), reversed(far), strict=True):
+        left = composed(left, inverted(displacement(motion, np.asarray(value))))
+    return left
+
+
+def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displaced: Frame) -> tuple[Rows, int]:
+    """A limb with two ball joints and one other motion."""
+    before, middle, after = motions[:first], motions[first + 1 : second], motions[second + 1 :]
+    start, end = motions[first], motions[second]
+    others = [*before, *middle, *after]
+    if len(others) != 1 or others[0].kind == "ball":
+        raise NotSerialError("two ball joints, and not one motion beside them")
+    far_end = displaced[0] @ end.point + displaced[1]
+    if middle:
+        closure = distance_closure(middle[0], end.point, start.point, float(np.linalg.norm(far_end - start.point)))
+    else:
+        length = float(np.linalg.norm(end.point - start.point))
+        closure = (
+            distance_closure(before[0], start.point, far_end, length)
+            if before
+            else distance_closure(after[0].moved(*displaced).back, far_end, start.point, length)
+        )
+    rows: Rows = []
+    for (value,), bent in zip(closure.values, closure.bent, strict=True):
+        near, between, far = ([value] if part else [] for part in (before, middle, after))
+        left = _left(before, near, displaced, after, far)
+        reached = applied(middle[0], np.asarray(value), end.point) if middle else end.point
+        target = left[0] @ end.point + left[1]
+        turned = along(reached - start.point, target - start.point)
+        rest = turned.T @ left[0]
+        if middle:
+            rest = displacement(middle[0], np.asarray(value))[0].T @ rest
+        rows.append(([*near, *ball_values(start, turned), *between, *ball_values(end, rest), *far], bent))
+    return rows, closure.roots
+
+
+def _told_apart(
+    motions: Sequence[ElementaryMotion], values: FloatArray, bent: FloatArray, driven: Collection[int]
+) -> list[int]:
+    """Rows that put points of the limb elsewhere, or have other driven joint values; of equal ones the most real."""
+    size = _size(motions)
+    places = np.array([[*_places(motions, row, driven, size)] for row in values])
+    kept: list[int] = []
+    for k in np.argsort(bent, kind="stable"):
+        if all(np.max(np.abs(places[k] - places[j])) > SAME for j in kept):
+            kept.append(int(k))
+    return sorted(kept)
+
+
+def _places(
+    motions: Sequence[ElementaryMotion], row: FloatArray, driven: Collection[int], size: float
+) -> Iterator[float]:
+    """Where the points of the motions are, in sizes, and driven joint values."""
+    frame: Frame = (np.eye(3), np.zeros(3))
+    column = 0
+    for motion in motions:
+        yield from (frame[0] @ motion.point + frame[1]) / size
+        own = row[column : column + len(_indices(motion))]
+        column += len(own)
+        if motion.kind != "ball":
+            frame = composed(frame, displacement(motion, own[0]))
+            if motion.index in driven:
+                yield from (own[0] / size,) if motion.kind == "slide" else (np.cos(own[0]), np.sin(own[0]))
+        else:
+            turned = rotations.from_vector(motion.axis.T @ own)
+            turned = turned if motion.sense > 0 else turned.T
+            frame = composed(frame, (turned, motion.point - turned @ motion.point))
