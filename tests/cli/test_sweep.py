@@ -222,7 +222,8 @@ def drafted(tmp_path_factory):
 
     path = tmp_path_factory.mktemp("drafted") / "hybrid.toml"
     chains = ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]")
-    assert main(["new", str(path), *(word for text in chains for word in ("--chain", text))]) == 0
+    words = (word for text in chains for word in ("--chain", text))
+    assert main(["new", str(path), *words, "--coordinates"]) == 0
     return str(path)
 
 

@@ -21,7 +21,7 @@ def concurrent_turns(motions: Sequence[ElementaryMotion], rotation: FloatArray) 
     The turns before the last one take its axis to where it is to be; the last one then does the rest.
 
     Errors:
-        CurveError: there are infinitely many.
+        MovingLimbError: there are infinitely many.
 
     >>> axes = np.eye(3)[[2, 1, 0]]
     >>> turns = [ElementaryMotion("turn", axis, np.zeros(3), k, 1) for k, axis in enumerate(axes)]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.point_closure import DOUBTFUL, CurveError
+from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb, serial_limbs
 from assur.kinematics.limbs.solving import LimbSolutions, limb_solutions, still_point
 from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError
@@ -29,10 +29,10 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
     """All assemblies at a pose (m,), limb by limb; None where the pose or the limbs are not of that kind.
 
     >>> from assur.model.registry import load_record
-    >>> record = load_record("planar_3rrr")
-    >>> solutions = inverse_by_limbs(record, np.array([20.0, 10.0, 0.1]))
+    >>> record = load_record("gough_stewart")
+    >>> solutions = inverse_by_limbs(record, np.array([0.0, 10.0, 300.0, 1.0, 0.0, 0.0, 0.0]))
     >>> len(solutions.joints), solutions.complete
-    (8, True)
+    (64, True)
     """
     question = PositionQuestion(record, "inverse", pose)
     try:
@@ -41,7 +41,7 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
         if platform is None:
             return None
         limbs = [limb_solutions(limb, platform, record.input_indices) for limb in series]
-    except (NotSerialError, CurveError):
+    except (NotSerialError, MovingLimbError):
         return None
     if prod(len(own.values) for own in limbs) > MOST:
         return None

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.limbs.serial import ElementaryMotion, applied
+from assur.kinematics.limbs.serial import ElementaryMotion, applied, displacement
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -26,13 +26,17 @@ REAL = 1e-3
 """A root this near to a real one is tried: parts of a double root come out some 1e-8 apart, of a triple one 1e-5."""
 DOUBTFUL = 1e-6
 """What is bent by more than this may belong to a double root, or to none."""
+STEPS = 3
+"""Newton steps from a root to a solution: of one that is known to half of the digits two lead to all of them."""
+ROUNDING = 1e-11
+"""By so much a solution misses its place at most, in sizes."""
 CLOSE = 1e-2
 """Part of the limb's size by which a point may miss its place for Newton's method to be asked: a root that is tried as
 a real one misses it by as much as it was bent."""
 
 
-class CurveError(Exception):
-    """Infinitely many solutions, or nearly so."""
+class MovingLimbError(Exception):
+    """A limb closes in infinitely many ways, or nearly so."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +62,7 @@ def point_closure(
     `size` is a length to which the limb's points compare.
 
     Errors:
-        CurveError: there are infinitely many.
+        MovingLimbError: there are infinitely many.
 
     Example: two links of length 1 in a plane reach (1, 1) in two ways.
 
@@ -70,8 +74,8 @@ def point_closure(
            [ 90., -90.]])
     """
     if not motions:
-        missed = float(np.linalg.norm(point - place))
-        return PointClosure(np.zeros((int(missed < CLOSE * size), 0)), np.zeros(int(missed < CLOSE * size)), 1)
+        stays = int(np.linalg.norm(point - place) < CLOSE * size)
+        return PointClosure(np.zeros((stays, 0)), np.zeros(stays), 1)
     first, *others = motions
     values, bent = np.zeros((1, 0)), np.zeros(1)
     looked = 1
@@ -90,14 +94,38 @@ def point_closure(
         values, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))
         looked *= 2
     points = _followed(others, values, point)
-    beginning = _taking(first, points, place)
-    missed = np.linalg.norm(_followed([first], beginning[:, None], points) - place, axis=-1) / size
-    near = missed < CLOSE
-    return PointClosure(np.column_stack([beginning, values])[near], np.maximum(bent, missed)[near], looked)
+    whole = np.column_stack([_taking(first, points, place), values])
+    missed = np.linalg.norm(_followed(motions, whole, point) - place, axis=-1) / size
+    whole, bent = whole[missed < CLOSE], bent[missed < CLOSE]
+    whole, missed = _polished(motions, whole, point, place, size)
+    return PointClosure(whole, np.where(missed < ROUNDING, 0.0, np.maximum(bent, missed)), looked)
+
+
+def _polished(
+    motions: Sequence[ElementaryMotion], values: FloatArray, point: FloatArray, place: FloatArray, size: float
+) -> tuple[FloatArray, FloatArray]:
+    """Values (N, k) after some Newton steps, and by how much (N,) the point then misses its place, in sizes.
+
+    A resultant may have a solution as a double root that is none, which is known to half of the digits only.
+    """
+    for _ in range(STEPS):
+        moved = np.broadcast_to(point, (len(values), 3))
+        columns: list[FloatArray] = []
+        for motion, column in reversed([*zip(motions, values.T, strict=True)]):
+            rotation, shift = displacement(motion, column)
+            moved = (rotation @ moved[..., None])[..., 0] + shift
+            columns = [(rotation @ own[..., None])[..., 0] for own in columns]
+            rate = np.broadcast_to(motion.axis, moved.shape)
+            rate = rate if motion.kind == "slide" else np.cross(motion.axis, moved - motion.point)
+            columns.insert(0, motion.sense * rate)
+        slopes = np.stack(columns, axis=-1) / [size if motion.kind == "turn" else 1.0 for motion in motions]
+        steps = np.linalg.pinv(slopes, rcond=VANISHING) @ ((place - moved) / size)[..., None]
+        values = values + steps[..., 0] * [1.0 if motion.kind == "turn" else size for motion in motions]
+    return values, np.linalg.norm(_followed(motions, values, point) - place, axis=-1) / size
 
 
 def distance_closure(motion: ElementaryMotion, point: FloatArray, other: FloatArray, distance: float) -> PointClosure:
-    """Values of a motion that bring a point (3,) to a distance from another (3,). Errors: CurveError.
+    """Values of a motion that bring a point (3,) to a distance from another (3,). Errors: MovingLimbError.
 
     >>> slide = ElementaryMotion("slide", np.array([1.0, 0.0, 0.0]), np.zeros(3), 0, 1)
     >>> sorted(distance_closure(slide, np.array([0.0, 3.0, 0.0]), np.zeros(3), 5.0).values.ravel().round(9).tolist())
@@ -109,7 +137,7 @@ def distance_closure(motion: ElementaryMotion, point: FloatArray, other: FloatAr
     polynomial = _kept(about, motion, point[None], place, size)[1][0]
     if not _depends(motion, polynomial):
         if abs(polynomial[_constant(motion)]) < CLOSE:
-            raise CurveError
+            raise MovingLimbError
         return PointClosure(np.zeros((0, 1)), np.zeros(0), 2)
     values, bent = _roots(motion, polynomial, size)
     return PointClosure(values[:, None], bent, 2)
@@ -196,7 +224,7 @@ def _resultant(motions: Sequence[ElementaryMotion], point: FloatArray, place: Fl
         powers = np.roll(powers, SAMPLES // 2)
     largest = np.max(np.abs(powers))
     if largest < VANISHING:
-        raise CurveError
+        raise MovingLimbError
     used = np.flatnonzero(np.abs(powers) > VANISHING * largest)
     return np.asarray(powers[used[0] : used[-1] + 1] if last.kind == "turn" else powers[: used[-1] + 1])
 
@@ -207,7 +235,7 @@ def _each(
     """Real roots of those polynomials (3,) that depend on the motion."""
     depending = [own for own in polynomials if _depends(motion, own)]
     if not depending and max(abs(own[_constant(motion)]) for own in polynomials) < CLOSE:
-        raise CurveError
+        raise MovingLimbError
     for own in depending:
         yield _roots(motion, own, size)
 

@@ -60,7 +60,7 @@ def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = 
 
     Errors:
         NotSerialError: no point of it is left in place by enough of its joints.
-        CurveError: it closes in infinitely many ways.
+        MovingLimbError: it closes in infinitely many ways.
     """
     displaced = composed(platform, inverted(limb.zero))
     balls = [k for k, motion in enumerate(limb.motions) if motion.kind == "ball"]

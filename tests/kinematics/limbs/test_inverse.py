@@ -1,0 +1,76 @@
+"""Limb by limb: as many assemblies as a search finds, and those; each closes, and all are said to be known."""
+
+import numpy as np
+import pytest
+
+from assur.cli.main import main
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closure_error
+from assur.kinematics.home import home_values
+from assur.kinematics.limbs.inverse import inverse_by_limbs
+from assur.kinematics.limbs.serial import NotSerialError, serial_limbs
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import inverse
+from assur.kinematics.search import distinct, search
+from assur.model.registry import load_record
+
+DRAFTS = {
+    "6-UPS": ["6-UPS"],
+    "6-RUS": ["6-RUS"],
+    "6-PUS": ["6-PUS"],
+    "RSS": ["--limb", "R[y] S S", "--count", "6", "--actuate", "1.1,2.1,3.1,4.1,5.1,6.1"],
+    "spherical": ["--limb", "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O", "--count", "3"],
+}
+QUICK = ("6-UPS", "spherical")
+
+
+@pytest.fixture(
+    scope="module", params=[name if name in QUICK else pytest.param(name, marks=pytest.mark.deep) for name in DRAFTS]
+)
+def drafted(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("limbs") / "mine.toml"
+    assert main(["new", str(path), *DRAFTS[request.param]]) == 0
+    return load_record(path)
+
+
+def beside_home(record, rng):
+    """A pose near home that the mechanism reaches."""
+    pose = pose_of(record, home_values(record))
+    lengths = np.array(
+        [0.05 * characteristic_length(record) if name in "xyz" else 0.2 for name in record.platform.pose]
+    )
+    return pose + rng.uniform(-1, 1, len(pose)) * lengths
+
+
+def test_all_that_a_search_finds_and_no_other(drafted):
+    rng = np.random.default_rng(4)
+    pose = beside_home(drafted, rng)
+    if "qw" in drafted.platform.pose:
+        pose[-4:] /= np.linalg.norm(pose[-4:])
+    solutions = inverse_by_limbs(drafted, pose)
+    assert solutions.complete
+    assert len(solutions.joints) >= 8
+    assert np.max(closure_error(drafted, solutions.joints)) < 1e-9
+    known = search(drafted, "inverse", pose).joints
+    together = np.concatenate([solutions.joints, known])
+    assert len(distinct(drafted, together)) == len(solutions.joints)
+    assert len(distinct(drafted, solutions.joints)) == len(solutions.joints)
+
+
+def test_the_answer_says_by_what_right_they_are_all(drafted):
+    pose = pose_of(drafted, home_values(drafted))
+    answer = inverse(drafted, pose)
+    assert answer.complete
+    assert answer.right.startswith("each limb alone, for all its roots: ")
+
+
+def test_a_platform_out_of_reach_has_none_and_that_is_known(tmp_path):
+    path = tmp_path / "rus.toml"
+    assert main(["new", str(path), "6-RUS"]) == 0
+    solutions = inverse_by_limbs(load_record(path), np.array([0.0, 0.0, 1e5, 1.0, 0.0, 0.0, 0.0]))
+    assert (len(solutions.joints), solutions.complete) == (0, True)
+
+
+def test_a_limb_with_an_inner_loop_is_no_series():
+    with pytest.raises(NotSerialError, match="form no series of joints"):
+        serial_limbs(load_record("zeng2019"))
