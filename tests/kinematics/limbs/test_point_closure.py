@@ -1,4 +1,4 @@
-"""All ways to take a point to its place: that by which it was taken among them, and as many as Newton's method meets."""
+"""Ways to take a point to its place: that by which it was taken is among them, and they are all that Newton meets."""
 
 import itertools
 
