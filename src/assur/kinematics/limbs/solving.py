@@ -127,7 +127,7 @@ def _meetings(motions: Sequence[ElementaryMotion]) -> Iterator[_Centre]:
     for start in turns:
         points = [motions[start].point]
         if start + 1 in turns:
-            points.append(_meeting(motions[start], motions[start + 1]))
+            points.append(meeting(motions[start], motions[start + 1]))
         for point in points:
             end = start
             while end in turns and _distance(motions[end], point) < MEETING * size:
@@ -139,7 +139,7 @@ def _distance(motion: ElementaryMotion, point: FloatArray) -> float:
     return float(np.linalg.norm(np.cross(motion.axis, point - motion.point)))
 
 
-def _meeting(first: ElementaryMotion, second: ElementaryMotion) -> FloatArray:
+def meeting(first: ElementaryMotion, second: ElementaryMotion) -> FloatArray:
     """The point of the first axis that is nearest to the second."""
     across = np.cross(np.cross(first.axis, second.axis), second.axis)
     share = across @ first.axis
