@@ -14,7 +14,7 @@ from assur.kinematics.limbs.inverse import inverse_by_limbs
 from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
-from assur.kinematics.platforms.direct import direct_by_distances
+from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.search import search
 from assur.kinematics.validation.check import check
 from assur.model.mechanism import MechanismRecord
@@ -70,7 +70,7 @@ def _assemblies(
 ) -> _Assemblies:
     if method != "search":
         asked = {"inputs": given} if problem == "direct" else {"pose": given}
-        known = (inverse_by_limbs if problem == "inverse" else direct_by_distances)(record, given)
+        known = (inverse_by_limbs if problem == "inverse" else direct_by_conditions)(record, given)
         turn = known if known and known.complete else solve_by_loops(record, **asked, crossed=crossed)
         if turn.complete or method == "loops" or (crossed and len(turn.joints)):
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)

@@ -83,9 +83,10 @@ def still_point(limb: SerialLimb) -> FloatArray | None:
     >>> from assur.model.registry import load_record
     >>> still_point(serial_limbs(load_record("planar_3rrr"))[0])
     """
-    if any(motion.kind == "slide" for motion in limb.motions):
+    kinds = [motion.kind for motion in limb.motions]
+    if "slide" in kinds or kinds == ["turn"]:
         return None
-    centre = _centre(limb) if len(limb.motions) > 1 else None
+    centre = _centre(limb)
     return centre.point if centre is not None and centre.end - centre.start == len(limb.motions) else None
 
 

@@ -1,8 +1,9 @@
-"""The direct problem of a platform whose limbs, with their drives held, each say a distance between two points."""
+"""The direct problem of platforms whose limbs, with drives held, say one condition each: all poses, then all joints."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -16,7 +17,9 @@ from assur.kinematics.limbs.serial import NotSerialError, SerialLimb, serial_lim
 from assur.kinematics.limbs.solving import limb_solutions
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
 from assur.kinematics.platforms.distances import point_distance
+from assur.kinematics.platforms.rotations import rotations_under
 from assur.kinematics.platforms.six_distances import LEGS, SixDistancePoses, six_distance_poses
+from assur.kinematics.platforms.spherical import fixed_point, rotation_conditions
 from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
@@ -26,12 +29,12 @@ AS_HELD = 1e-5
 """By how much a drive may miss what it is held at, in rad and characteristic lengths, before loops are closed."""
 
 
-def direct_by_distances(record: MechanismRecord, inputs: FloatArray) -> LoopSolutions | None:
+def direct_by_conditions(record: MechanismRecord, inputs: FloatArray) -> LoopSolutions | None:
     """All assemblies at printed inputs (n,) of a platform on six legs; None where limbs say anything else.
 
     >>> from assur.model.registry import load_record
     >>> legs = np.array([1.02, 0.64, 1.06, 1.48, 1.34, 0.77])
-    >>> solutions = direct_by_distances(load_record("gough_stewart"), legs)
+    >>> solutions = direct_by_conditions(load_record("gough_stewart"), legs)
     >>> len(solutions.joints), solutions.right.split(",")[0]
     (18, 'six distances between points of base and platform: 40 complex poses')
     """
@@ -39,19 +42,49 @@ def direct_by_distances(record: MechanismRecord, inputs: FloatArray) -> LoopSolu
     held = question.locked
     try:
         limbs = serial_limbs(record)
-        distances = [point_distance(limb, held) for limb in limbs]
-        legs = [distance for distance in distances if distance is not None]
-        if len(legs) != LEGS or len(limbs) != LEGS:
+        poses = _six(record, limbs, held) or _spherical(limbs, held)
+        if poses is None:
             return None
-        solved = six_distance_poses(legs, characteristic_length(record))
-        starts = [row for pose in solved.poses for row in _assemblies(record, limbs, pose, held)]
+        starts = [row for frame in poses.frames for row in _assemblies(record, limbs, frame, held)]
     except (NotSerialError, MovingLimbError):
         return None
     joints = question.closed(np.array(starts).reshape(-1, len(record.coordinates)))
-    right = _right(solved)
-    if solved.unknown or len(joints) != len(starts):
-        return LoopSolutions(joints, False, f"not proved, since ends of paths are too near to tell them: {right}", LEGS)
-    return LoopSolutions(joints, True, right, solved.complex)
+    if not poses.sure or len(joints) != len(starts):
+        right = f"not proved, since roots are too near to tell them: {poses.right}"
+        return LoopSolutions(joints, False, right, poses.complex)
+    return LoopSolutions(joints, True, poses.right, poses.complex)
+
+
+@dataclass(frozen=True, eq=False)
+class _Poses:
+    """Real frames of the platform, how many poses there are with complex ones, whether that is sure, and why."""
+
+    frames: tuple[Frame, ...]
+    complex: int
+    sure: bool
+    right: str
+
+
+def _six(record: MechanismRecord, limbs: Sequence[SerialLimb], held: Mapping[int, float]) -> _Poses | None:
+    if len(limbs) != LEGS:
+        return None
+    distances = [point_distance(limb, held) for limb in limbs]
+    legs = [distance for distance in distances if distance is not None]
+    if len(legs) != LEGS:
+        return None
+    solved = six_distance_poses(legs, characteristic_length(record))
+    return _Poses(solved.poses, solved.complex, not solved.unknown, _right(solved))
+
+
+def _spherical(limbs: Sequence[SerialLimb], held: Mapping[int, float]) -> _Poses | None:
+    fixed = fixed_point(limbs)
+    conditions = None if fixed is None else rotation_conditions(limbs, held, fixed)
+    if fixed is None or conditions is None:
+        return None
+    solved = rotations_under(conditions)
+    frames = tuple((rotation, fixed[0] - rotation @ fixed[1]) for rotation in solved.values)
+    right = f"three linear conditions on the platform's rotation about a fixed point: {solved.complex} complex"
+    return _Poses(frames, solved.complex, solved.sure, f"{right} rotations of at most 8, {len(frames)} of them real")
 
 
 def _right(solved: SixDistancePoses) -> str:
