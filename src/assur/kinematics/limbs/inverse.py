@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
 from assur.kinematics.home import home_values
+from assur.kinematics.limbs.completion import Completion, completion
 from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb, serial_limbs
 from assur.kinematics.limbs.solving import LimbSolutions, limb_solutions, still_point
@@ -38,21 +39,31 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
     try:
         series = serial_limbs(record)
         platform = _platform(question, series)
-        if platform is None:
+        whole = completion(question, series) if platform is None else Completion((platform,), True, "")
+        if whole is None:
             return None
-        limbs = [limb_solutions(limb, platform, record.input_indices) for limb in series]
+        sets = [[limb_solutions(limb, frame, record.input_indices) for limb in series] for frame in whole.frames]
     except (NotSerialError, MovingLimbError):
         return None
-    if prod(len(own.values) for own in limbs) > MOST:
+    if sum(prod(len(own.values) for own in limbs) for limbs in sets) > MOST:
         return None
-    right = "each limb alone, for all its roots: " + ", ".join(f"{own.limb.joints[0]} ({own.roots})" for own in limbs)
-    starts, bent = _starts(record, limbs)
+    right = _right(whole, series, sets)
+    pieces = [_starts(record, limbs) for limbs in sets] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
+    starts, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))
     joints = question.closed(starts)
-    looked = sum(own.roots for own in limbs)
+    looked = sum(own.roots for limbs in sets for own in limbs)
     sure = starts[bent <= DOUBTFUL]
-    if len(joints) != len(sure) or (len(sure) < len(starts) and len(question.closed(sure)) < len(joints)):
+    doubtful = len(joints) != len(sure) or (len(sure) < len(starts) and len(question.closed(sure)) < len(joints))
+    if doubtful or not whole.sure:
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", looked)
     return LoopSolutions(joints, True, right, looked)
+
+
+def _right(whole: Completion, series: Sequence[SerialLimb], sets: Sequence[Sequence[LimbSolutions]]) -> str:
+    if not sets:
+        return f"{whole.right}: none is real" if whole.right else "each limb alone"
+    names = ", ".join(f"{limb.joints[0]} ({own.roots})" for limb, own in zip(series, sets[0], strict=True))
+    return f"{whole.right + ', then ' if whole.right else ''}each limb alone, for all its roots: {names}"
 
 
 def _platform(question: PositionQuestion, limbs: Sequence[SerialLimb]) -> Frame | None:

@@ -13,11 +13,11 @@ from assur.joint_graph.frames import Frame
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.point_closure import MovingLimbError
+from assur.kinematics.limbs.rotations import rotations_under
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb, serial_limbs
 from assur.kinematics.limbs.solving import limb_solutions
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
 from assur.kinematics.platforms.distances import point_distance
-from assur.kinematics.platforms.rotations import rotations_under
 from assur.kinematics.platforms.six_distances import LEGS, SixDistancePoses, six_distance_poses
 from assur.kinematics.platforms.spherical import fixed_point, rotation_conditions
 from assur.kinematics.turns import periodic

@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.limbs.rotations import RotationCondition
 from assur.kinematics.limbs.serial import SerialLimb, displacement
 from assur.kinematics.limbs.solving import still_point
 from assur.kinematics.platforms.distances import point_distance
-from assur.kinematics.platforms.rotations import RotationCondition
 
 FloatArray = NDArray[np.float64]
 CONDITIONS = 3
