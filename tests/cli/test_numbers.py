@@ -128,3 +128,9 @@ def test_an_interval_of_one_value_is_held_with_at(what, text, hint):
     with pytest.raises(UsageError, match="is turned round or empty") as caught:
         interval(text, what, "x=-1:1")
     assert caught.value.hint == hint
+
+
+def test_two_hyphens_end_the_options(assur_cli):
+    plain, after = (assur_cli("direct", "fivebar", *words, "127", "53") for words in ((), ("--",)))
+    assert (after.code, after.out) == (0, plain.out)
+    assert assur_cli("direct", "zeng2019", "--", "162.6907", "-143.3209", "-24.6776").code == 0

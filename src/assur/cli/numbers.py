@@ -20,6 +20,8 @@ HOLDABLE = ("--box", "--along")
 """Options whose interval is that of a coordinate which --at can hold."""
 VALUE = re.compile(r"-(\d|[.,]\d|inf|nan)", re.IGNORECASE)
 """How a value begins that could be taken for an option."""
+END = "--"
+"""No word after it is an option."""
 TIED = {"--mode": re.compile(r"[+0-]+\Z"), "--chain": re.compile(r"-[^-]")}
 """Options whose value may begin with a hyphen, and how it then looks: signs, or a chain of the literature."""
 
@@ -113,23 +115,29 @@ def interval(text: str, what: str, example: str) -> tuple[float, float]:
 def shielded(tokens: Sequence[str]) -> list[str]:
     """Command-line words in which no value can be taken for an option.
 
-    A word that begins like a negative number gets a space in front; a mode and a chain are tied to their options.
+    A word that begins like a negative number gets a space in front; a mode and a chain are tied to their options. So
+    `--` in front of values says nothing new, and is left out.
 
     >>> shielded(["--mode", "--+", "-1,5", "--json"])
     ['--mode=--+', ' -1,5', '--json']
+    >>> shielded(["fivebar", "--", "-1.5", "2"])
+    ['fivebar', ' -1.5', '2']
     >>> shielded(["--chain", "-R|R-"])
     ['--chain=-R|R-']
     """
-    found: list[str] = []
+    kept: list[str] = []
     words = iter(tokens)
     for word in words:
         if word in TIED:
             value = next(words, None)
             known = value is not None and TIED[word].match(value)
-            found += [f"{word}={value}"] if known else [word] if value is None else [word, value]
+            kept += [f"{word}={value}"] if known else [word] if value is None else [word, value]
+        elif word == END:
+            rest = shielded([*words])
+            kept += [word, *rest] if any(value.startswith("-") for value in rest) else rest
         else:
-            found.append(f" {word}" if VALUE.match(word) else word)
-    return found
+            kept.append(f" {word}" if VALUE.match(word) else word)
+    return kept
 
 
 def whole_number(text: str, what: str) -> int:

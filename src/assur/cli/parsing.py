@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 
 from cyclopts import CycloptsError, MissingArgumentError, UnusedCliTokensError
 
+from assur.cli.numbers import END
 from assur.errors import UsageError
 
 if TYPE_CHECKING:
     from cyclopts import App
-
-END = "--"
-"""No word after it is an option."""
 
 
 def complaint(app: App, words: Sequence[str], error: CycloptsError) -> UsageError:
