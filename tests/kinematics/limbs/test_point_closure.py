@@ -69,3 +69,10 @@ def test_they_are_all():
         assert ours == met
         counts.add(len(ours))
     assert counts <= {2, 4}
+
+
+def test_a_point_that_comes_onto_an_axis_leaves_its_turn_open():
+    turns = [ElementaryMotion("turn", axis, np.zeros(3), k, 1) for k, axis in enumerate(np.eye(3)[[2, 0]])]
+    with pytest.raises(MovingLimbError):
+        point_closure(turns, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]), 1.0)
+    assert len(point_closure(turns, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.8, 0.6]), 1.0).values) > 0

@@ -30,6 +30,8 @@ STEPS = 3
 """Newton steps from a root to a solution: of one that is known to half of the digits two lead to all of them."""
 ROUNDING = 1e-11
 """By so much a solution misses its place at most, in sizes."""
+ON_AXIS = 1e-6
+"""Part of the limb's size up to which a point lies on an axis, so that turning about it moves nothing."""
 CLOSE = 1e-2
 """Part of the limb's size by which a point may miss its place for Newton's method to be asked: a root that is tried as
 a real one misses it by as much as it was bent."""
@@ -96,7 +98,9 @@ def point_closure(
     points = _followed(others, values, point)
     whole = np.column_stack([_taking(first, points, place), values])
     missed = np.linalg.norm(_followed(motions, whole, point) - place, axis=-1) / size
-    whole, bent = whole[missed < CLOSE], bent[missed < CLOSE]
+    whole, bent, points = whole[missed < CLOSE], bent[missed < CLOSE], points[missed < CLOSE]
+    if first.kind == "turn" and np.any(_from_axis(first, points) < ON_AXIS * size):
+        raise MovingLimbError
     whole, missed = _polished(motions, whole, point, place, size)
     return PointClosure(whole, np.where(missed < ROUNDING, 0.0, np.maximum(bent, missed)), looked)
 
@@ -149,6 +153,11 @@ def _followed(motions: Sequence[ElementaryMotion], values: FloatArray, points: F
     for motion, column in reversed([*zip(motions, values.T, strict=True)]):
         moved = applied(motion, column, moved)
     return moved
+
+
+def _from_axis(motion: ElementaryMotion, points: FloatArray) -> FloatArray:
+    """Distances (N,) of points (N, 3) from the line of a motion."""
+    return np.asarray(np.linalg.norm(np.cross(points - motion.point, motion.axis), axis=-1))
 
 
 def _taking(motion: ElementaryMotion, points: FloatArray, place: FloatArray) -> FloatArray:
