@@ -43,12 +43,16 @@ def loaded(cache, words):
     return {name for name in packages if not name.startswith("_")}, [name for name in modules if name[:5] == "assur"]
 
 
+def test_a_check_sets_no_type_to_see_that_labels_can_be_set(cache):
+    assert "matplotlib" not in loaded(cache, ("check", "tripteron"))[0]
+
+
 @pytest.mark.parametrize(
     ("words", "packages", "most"),
     [
         (("--help",), set(), 51),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 126),
+        (("show", "zeng2019"), NUMPY, 127),
         (DIRECT, NUMPY, 137),
         (INVERSE, NUMPY, 137),
     ],

@@ -1,6 +1,7 @@
 """Modes bear the file's names where it has them, else those of closing blocks."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -62,3 +63,25 @@ def test_letters_go_on_after_z():
     assert list(labels[[0, 25, 26, 29]]) == ["+a", "+z", "+aa", "+ad"]
     assert without_letter("+ad~Pa1") == "+~Pa1"
     assert is_of_mode(labels, "+").all()
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+def test_a_mode_that_is_given_by_a_number_is_refused_with_its_name(problem):
+    """Numbers counted solutions from the nearest to home on, of all or of those that share signs."""
+    record = load_record("planar_3rpr")
+    given = [300.0, 300.0, 300.0] if problem == "direct" else [10.0, 20.0, 0.1]
+    solve = direct if problem == "direct" else inverse
+    solutions = solve(record, given, method="search")
+    labels = [str(label) for label in solutions.labels[solutions.exists]]
+    for number, label in enumerate(labels, 1):
+        with pytest.raises(UnknownNameError, match=rf"number {number} is now {re.escape(label)}$"):
+            solve(record, given, str(number), method="search")
+    alike = [label for label in labels if label.startswith("-")]
+    assert len(alike) > 1
+    for number, label in enumerate(alike, 1):
+        with pytest.raises(UnknownNameError, match=rf"number -/{number} is now {re.escape(label)}$"):
+            solve(record, given, f"-/{number}", method="search")
+    with pytest.raises(UnknownNameError, match="of 99 there is none"):
+        solve(record, given, "99", method="search")
+    with pytest.raises(UnknownNameError, match="modes of one problem are listed by"):
+        solve(record, [given, given], "3", method="search")

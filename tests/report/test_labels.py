@@ -5,9 +5,12 @@ import shutil
 from pathlib import Path
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from matplotlib.mathtext import MathTextParser
 
 from assur.figures.catalogue import draw
-from assur.figures.labels import is_settable, label
+from assur.figures.labels import _PLAIN, is_settable, label
 from assur.model.registry import load_record, names
 from assur.report.formulas.latex import is_understood, symbol_mathml
 from assur.report.labels import label_faults
@@ -83,3 +86,18 @@ def test_figures_of_an_input_with_a_bad_name_and_label_are_drawn():
     changed = dataclasses.replace(record, inputs=inputs, closed_form=dataclasses.replace(form, factor_list=factors))
     for name in ("model", "solutions"):
         assert draw(changed, name)
+
+
+PIECES = (*"abXY019)|(-+=/, ^_", r"\alpha", r"\varphi", r"\sin", r"\mathbf{u}", r"\times", r"\det", r"\,", r"\ ")
+PIECES += ("_1", "_{1y}", "_{B_2}", "_{1,2}", "^2", r"\cdot", r"\pm", r"\angle", r"\partial", r"\Pi", r"\cos")
+
+
+@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=9).map("".join))
+def test_what_is_taken_for_settable_by_its_letters_is_set(latex):
+    assume(latex.strip() and _PLAIN.fullmatch(latex))
+    MathTextParser("path").parse(f"${latex}$")
+
+
+def test_an_index_of_an_index_or_a_power_of_a_power_is_not_taken_for_it():
+    for latex in ("a_b_c", "a^2^2", r"\alphax", "a_{1", "^2", r"\sqrt{a}"):
+        assert not _PLAIN.fullmatch(latex)

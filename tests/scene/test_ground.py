@@ -2,10 +2,15 @@
 
 import numpy as np
 
+import assur
 from assur.joints.universal import UNIVERSAL
+from assur.kinematics.home import home_values
+from assur.scene.companion import companion
 from assur.scene.ground import across, upright
 from assur.scene.parts import parts
-from assur.scene.skeleton import Skeleton
+from assur.scene.skeleton import Skeleton, skeleton
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 
 def of_base(every):
@@ -31,6 +36,17 @@ def test_upright_axes_have_pillars(every):
     for mark in every.skeleton.marks:
         if mark.joint.name in roles:
             assert (roles[mark.joint.name] == "pillar") == upright(mark)
+
+
+def test_sliders_that_carry_planes_stand_on_rails_though_no_rod_moves(tmp_path):
+    chains = parse_chains([f"P[{axis}] E[{axis}]" for axis in "xyz"])
+    (tmp_path / "planes.toml").write_text(drafted(chains, tmp_path / "planes.toml").text, encoding="utf-8")
+    record = assur.load(tmp_path / "planes.toml")
+    names = companion(record)
+    at_home = skeleton(record, names, home_values(record))
+    assert {rod.link for rod in at_home.rods} <= {record.base}
+    rails = [part for part in parts(at_home, names) if part.role == "rail"]
+    assert len(rails) == 3
 
 
 def test_across_is_across():

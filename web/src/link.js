@@ -1,13 +1,16 @@
 /** Everything that is shown, in the address's hash: camera, pose, mode, tab, course and check boxes, so that a link restores it. */
 
+import { minus } from "./dom.js";
+
 const REST = 350;
 const FURTHEST = 50; // sizes of the mechanism that the camera's target may be away
+const MODE = /^[\w+~. -]{1,200}$/;
 const FLAGS = ["ghosts", "letters", "limits"];
 
 /**
  * What can be chosen on the page beside pose and camera: each is read, and put back.
  * @typedef {{tab: string, course: number, layers: number[], ghosts: boolean, letters: boolean, limits: boolean}} Choices
- * @typedef {{count: number, branches: number, tabs: string[], courses: number, layers: number}} Known what there is to choose from
+ * @typedef {{count: number, tabs: string[], courses: number, layers: number}} Known what there is to choose from
  */
 
 /** Numbers as short text that an address may hold: 32-bit floats in base64. @param {number[]} values */
@@ -31,13 +34,13 @@ export function unpacked(text, count) {
   }
 }
 
-/** The hash of a state. @param {{branch: number, values: number[], camera: number[], choices: Choices}} state */
-export function hashOf({ branch, values, camera, choices }) {
+/** The hash of a state; `mode` is the name of its assembly mode, if it has one. @param {{mode: string, values: number[], camera: number[], choices: Choices}} state */
+export function hashOf({ mode, values, camera, choices }) {
   const view = camera.map((value) => Number(value.toFixed(3))).join(",");
   const { tab, course, layers } = choices;
   const flags = FLAGS.map((name) => `${name}=${Number(choices[name])}`).join("&");
-  const mode = branch < 0 ? "" : `mode=${branch}&`; // none where the mode has no name
-  return `#${mode}joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
+  const named = mode ? `mode=${encodeURIComponent(mode)}&` : "";
+  return `#${named}joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
 }
 
 /** A whole number below a bound. @returns {number|null} */
@@ -55,18 +58,22 @@ function cameraOf(text) {
   return sound && Math.hypot(...found.slice(3)) < FURTHEST ? found : null;
 }
 
-/** What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. @param {string} hash @param {Known} known */
-export function readHash(hash, { count, branches, tabs, courses, layers }) {
+/**
+ * What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. `number` is
+ * that of a mode, as addresses bore it when modes had no names.
+ * @param {string} hash @param {Known} known
+ */
+export function readHash(hash, { count, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   let damaged = false;
   const read = (name, call) => {
     const found = given.has(name) ? call(given.get(name)) : null;
-    damaged ||= given.has(name) && found === null && name !== "mode"; // how many there are depends on the pose
+    damaged ||= given.has(name) && found === null;
     return found;
   };
   const flag = (text) => (["0", "1"].includes(text) ? text === "1" : null);
   const found = {
-    branch: read("mode", (text) => whole(text, branches)),
+    mode: read("mode", (text) => (MODE.test(text) ? text : null)),
     values: read("joints", (text) => unpacked(text, count)),
     camera: read("view", cameraOf),
     choices: {
@@ -76,32 +83,36 @@ export function readHash(hash, { count, branches, tabs, courses, layers }) {
       ...Object.fromEntries(FLAGS.map((name) => [name, read(name, flag)])),
     },
   };
-  return { ...found, damaged };
+  const number = /^\d+$/.test(found.mode ?? "") ? found.mode : null;
+  return { ...found, ...(number && { mode: null }), number, damaged };
+}
+
+/** What is said of an address that numbers its mode: the name of the one in which its joint values stand. */
+function renamed(number, { mode }) {
+  const name = mode ? `the one that is shown is ${minus(mode)} now` : "the one that is shown has none";
+  return `this link calls an assembly mode by the number ${number}; modes have names: ${name}`;
 }
 
 /**
  * Restores what the address says and keeps it up to date.
  * @param {Record<keyof Choices, {read: () => any, put: (value: any) => void}>} choices where each is read and put
- * @param {Omit<Known, "count"|"branches">} known
+ * @param {Omit<Known, "count">} known
  * @param {(text: string) => void} say a word where an address is damaged
  * @returns {() => string} the address now
  */
 export function linked(mechanism, stage, choices, known, say) {
   const restore = () => {
-    const found = readHash(location.hash, {
-      ...known,
-      count: mechanism.model.count,
-      branches: mechanism.assembly.length,
-    });
+    const found = readHash(location.hash, { ...known, count: mechanism.model.count });
     for (const [name, value] of Object.entries(found.choices)) if (value !== null) choices[name].put(value);
-    const foreign = found.values && !mechanism.restore(found.values, found.branch ?? 0);
+    const foreign = found.values && !mechanism.restore(found.values, found.mode);
     if (found.camera) stage.view.set(found.camera);
     if (found.damaged || foreign) say("this link is damaged, or another page's: only what is understood is shown");
+    else if (found.number) say(renamed(found.number, mechanism));
   };
   const address = () => {
     const chosen = Object.fromEntries(Object.entries(choices).map(([name, { read }]) => [name, read()]));
-    const { branch, values } = mechanism;
-    const hash = hashOf({ branch, values, camera: stage.view.numbers(), choices: chosen });
+    const { mode, values } = mechanism;
+    const hash = hashOf({ mode, values, camera: stage.view.numbers(), choices: chosen });
     return location.href.split("#")[0] + hash;
   };
   let timer = 0;

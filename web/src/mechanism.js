@@ -64,9 +64,10 @@ export class Mechanism {
    * the current one: the first if no parallel singularity was on the way, else the one whose inputs lead here; -1 where
    * none does.
    */
-  settle(work, crossed, hint = 0) {
+  settle(work, crossed, hint = null) {
     this.list(work);
-    const order = [...new Set([hint, ...this.assembly.keys()])].filter((k) => this.assembly[k]);
+    const said = (k) => Number(this.assembly[k].label !== hint);
+    const order = [...this.assembly.keys()].sort((a, b) => said(a) - said(b));
     this.branch = crossed ? (order.find((k) => this.arrives(this.assembly[k])) ?? -1) : 0;
     return this.branch >= 0;
   }
@@ -105,6 +106,11 @@ export class Mechanism {
     this.reason = reason;
   }
 
+  /** The name of the assembly mode in which it stands; empty where none of those of home's pose leads there. */
+  get mode() {
+    return this.assembly[this.branch]?.label ?? "";
+  }
+
   get pose() {
     return poseOf(this.model, this.values);
   }
@@ -126,7 +132,7 @@ export class Mechanism {
 
   /**
    * Straight to joint values that are nearly an assembly, as a link knows them; nothing where they are not.
-   * @param {number} hint the assembly mode that it says, to be tried first
+   * @param {string|null} hint the name of the assembly mode that it says, to be tried first
    * @returns {boolean} whether they are
    */
   restore(values, hint) {

@@ -4,15 +4,15 @@ import { el, minus } from "./dom.js";
 import { COLOURS } from "./ghosts.js";
 
 /** A mode's name as a person reads it, and whether it is that of home. */
-export function named({ label, home }, k) {
-  const name = minus(label) || `mode ${k + 1}`;
+export function named({ label, home }) {
+  const name = minus(label) || "the only one";
   return home && label !== "home" ? `${name} (home)` : name;
 }
 
 /** The name, and what is not as usual. */
-function told(item, k, gone = false) {
+function told(item, gone = false) {
   const unusual = gone ? "not at these inputs" : item.status === "regular" ? "" : item.status;
-  return unusual ? `${named(item, k)}: ${unusual}` : named(item, k);
+  return unusual ? `${named(item)}: ${unusual}` : named(item);
 }
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
@@ -24,7 +24,7 @@ export function modeLists(mechanism, ghosts) {
         type: "button",
         class: "mode",
         "aria-pressed": "false",
-        title: told(item, k),
+        title: told(item),
         onclick: choose,
         ...(colour
           ? {
@@ -36,7 +36,7 @@ export function modeLists(mechanism, ghosts) {
           : {}),
       },
       colour ? el("i", { style: `--colour:${colour}` }) : null,
-      named(item, k),
+      named(item),
     );
   const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
   const [assembly, working] = [group("Assembly modes"), group("Working modes")];
@@ -67,7 +67,7 @@ export function modeLists(mechanism, ghosts) {
     [...assembly.children].forEach((node, k) => {
       const gone = k !== mechanism.branch && !mechanism.assembly[k].reached;
       node.classList.toggle("gone", gone);
-      node.title = told(listed[k], k, gone);
+      node.title = told(listed[k], gone);
     });
   mechanism.listen(show);
   show();

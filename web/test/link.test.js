@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { hashOf, packed, readHash, unpacked } from "../src/link.js";
 import { apart } from "./numbers.js";
 
-const KNOWN = { count: 4, branches: 3, tabs: ["move", "show", "facts"], courses: 5, layers: 3 };
+const KNOWN = { count: 4, tabs: ["move", "show", "facts"], courses: 5, layers: 3 };
 const UNHARMED = ["", "#"];
 const NONE = { tab: null, course: null, layers: null, ghosts: null, letters: null, limits: null };
 
@@ -14,8 +14,9 @@ test("an address brings back what it says", () => {
     { tab: "show", course: 4, layers: [0, 2], ghosts: false, letters: true, limits: false },
     { tab: "facts", course: 0, layers: [], ghosts: true, letters: false, limits: true },
   ]) {
-    const found = readHash(hashOf({ branch: 2, values, camera, choices }), KNOWN);
-    assert.equal(found.branch, 2);
+    const found = readHash(hashOf({ mode: "+-b~Pa1", values, camera, choices }), KNOWN);
+    assert.equal(found.mode, "+-b~Pa1");
+    assert.equal(found.number, null);
     assert.deepEqual(found.camera, camera);
     assert.ok(apart(found.values, values) < 1e-2);
     assert.deepEqual(found.choices, choices);
@@ -24,35 +25,36 @@ test("an address brings back what it says", () => {
 
 test("an address that the page wrote is never called damaged", () => {
   const choices = { tab: "move", course: 0, layers: [], ghosts: true, letters: true, limits: true };
-  for (const branch of [-1, 0, 2, 7]) {
-    const hash = hashOf({ branch, values: [0, 1, 2, 3], camera: [-52, 24, 3.25, 0, 0, 0.5], choices });
+  for (const mode of ["", "+", "--", "0+a", "a", "home", "this one"]) {
+    const hash = hashOf({ mode, values: [0, 1, 2, 3], camera: [-52, 24, 3.25, 0, 0, 0.5], choices });
     const found = readHash(hash, KNOWN);
     assert.equal(found.damaged, false, hash);
-    assert.equal(found.branch, branch >= 0 && branch < KNOWN.branches ? branch : null);
+    assert.equal(found.mode, mode || null);
     assert.ok(apart(found.values, [0, 1, 2, 3]) < 1e-6);
   }
 });
 
-test("an address of before there were choices says nothing of them", () => {
+test("an address of before there were names and choices says nothing of them, but bears a number", () => {
   const found = readHash(`#mode=1&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
-  assert.deepEqual(found, { branch: 1, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE, damaged: false });
+  const kept = { mode: null, number: "1", damaged: false };
+  assert.deepEqual(found, { ...kept, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
 });
 
 test("an address that makes no sense changes nothing", () => {
   for (const hash of [
     "",
     "#",
-    "#mode=9&joints=!!&view=1,2",
+    "#mode=9%2F2&joints=!!&view=1,2",
     "#mode=&joints=&view=&tab=&course=&ghosts=&letters=&limits=",
-    "#mode=-1&joints=AAAA&view=a,b,c,d,e,f",
+    "#mode=%3C&joints=AAAA&view=a,b,c,d,e,f",
     `#joints=${packed([NaN, 1, 1, 1])}&view=1,,1,0,0,0`,
     "#view=1,1,1,1e9,0,0&tab=__proto__&course=5&layers=0,3&ghosts=yes&letters=2&limits=-1",
-    "#layers=0,&course=1.5&tab=Show&ghosts=constructor&mode=1e0",
+    "#layers=0,&course=1.5&tab=Show&ghosts=constructor&mode=%00",
     "#layers=,&view=0,0,-1,0,0,0&%E0%A4%A&&&=",
   ])
     assert.deepEqual(
       readHash(hash, KNOWN),
-      { branch: null, values: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
+      { mode: null, number: null, values: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
       hash,
     );
 });

@@ -35,7 +35,7 @@ test("a link restores the name too, whatever it says itself", () => {
     const it = made("fivebar");
     it.toPose(at);
     const { values } = it.work(it.working.findIndex(({ label }) => label === working));
-    for (const hint of [0, 1]) {
+    for (const hint of [null, "+", "-"]) {
       const other = made("fivebar");
       other.restore(
         values.map((value) => value + 1e-7),

@@ -93,6 +93,7 @@ def _exact(record: MechanismRecord) -> ExactAnswer | None:
 
 def _summary(record: MechanismRecord) -> SoundFacts:
     from assur.kinematics.contract.check import unproved
+    from assur.kinematics.rates.architecture import architecture_text
     from assur.kinematics.rates.motions import general
     from assur.model.registry import is_built_in
     from assur.results.answers.check import SoundFacts
@@ -104,6 +105,7 @@ def _summary(record: MechanismRecord) -> SoundFacts:
         joints=len(record.joints),
         freedoms=int(usual.freedoms - usual.internal),
         internal_freedoms=int(usual.internal),
+        architecture=architecture_text(record),
         closed_form=record.closed_form is not None,
         closed_form_checked=own,
         closed_form_not_run=record.closed_form_not_run,
@@ -141,6 +143,8 @@ def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
     spins = f" and {count(internal, 'internal freedom')}" if internal else ""
     bodies = f"{count(facts.links, 'link')}, {count(facts.joints, 'joint')}"
     yield f"{bodies}; {count(facts.freedoms, 'freedom')}{spins}"
+    if facts.architecture:
+        yield facts.architecture
     if facts.closed_form_not_run:
         yield "its closed form is Python that assur cannot read as formulas, and was not run: the joint graph answers"
     elif facts.closed_form_checked:

@@ -22,6 +22,9 @@ def inverse(
     certify: Annotated[
         bool, Parameter(help="Prove all inputs by intervals, and that there are no others, or say what is undecided.")
     ] = False,
+    whole: Annotated[
+        bool, Parameter(name="--all", negative="", help="List every solution, where else the ways of limbs are listed.")
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """All inputs that hold the platform at a given pose.
@@ -29,6 +32,8 @@ def inverse(
     Each solution comes with its working mode, its assembly mode, its status and
     the gap that is left when every loop of the joint graph is closed with it.
     It says which strokes and limits of joints it exceeds; nothing is dropped.
+    Where more than 16 solutions are all choices of one way a limb, these ways
+    are listed, and all of them with --all.
     Exit code 4: it is proved that there is none; 5: undecided; 3: the formulas
     of the file give what is no solution.
 
@@ -52,4 +57,4 @@ def inverse(
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_inverse(record, given, way))
     with handing_over(SolutionSet, lambda solutions: outcome(record, solutions)):  # type: ignore[type-abstract]
-        return outcome(record, record.inverse(given, mode, method, crossed=crossed))
+        return outcome(record, record.inverse(given, mode, method, crossed=crossed), whole=whole)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
@@ -33,30 +34,37 @@ if TYPE_CHECKING:
 
 Positions = DirectAnswer | InverseAnswer
 
+ROWS = 16
+"""Solutions that are listed; more are shown by limbs where these are known."""
+
 LETTERS = "a letter for each solution, which is not kept along paths"
 """How modes read where no sign tells them apart."""
 
 
-def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
-    """The outcome of one problem.
+def outcome(record: Mechanism, solutions: SolutionSet, *, whole: bool = False) -> Outcome:
+    """The outcome of one problem; `whole` lists every row where limbs could be listed in their place.
 
     Exit code 4 where it is proved that no solution exists, 5 where that is undecided, 3 where one is not closed.
     """
     data = answer(solutions)
-    return Outcome(data, lambda: _shown(record, data, solutions.candidates), exit_codes.of_status(data.status))
+    return Outcome(
+        data, lambda: _shown(record, data, solutions.candidates, whole=whole), exit_codes.of_status(data.status)
+    )
 
 
 def lines(record: Mechanism, solutions: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
-    return _shown(record, answer(solutions), solutions.candidates)
+    return _shown(record, answer(solutions), solutions.candidates, whole=True)
 
 
-def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) -> Iterable[RenderableType]:
     style = style_of(record)
     yield heading(f"{data.mechanism}, {data.problem}: {_headline(record, data, branches)}")
     yield f"at {given_words(record, style, data.given, direct=data.problem == 'direct')}"
     yield ""
-    if data.solutions:
+    if isinstance(data, InverseAnswer) and data.limbs and len(data.solutions) > ROWS and not whole:
+        yield from _by_limbs(record, data, style)
+    elif data.solutions:
         yield _solutions(record, data, style)
         yield from exceeded(data)
         yield from _open_loops(data)
@@ -67,9 +75,28 @@ def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[Render
     if data.failures:
         yield failures(data.failures)
     yield _completeness(record, data)
+    if data.architecture:
+        yield f"It is {data.architecture}."
     if data.solutions and not data.limits_stated:
         yield "No limits are stated."
     yield from _modes(data)
+
+
+def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[RenderableType]:
+    """The ways of each limb in place of their product, and the row of home."""
+    own = _own_row(record, data)
+    if own is not None:
+        yield _solutions(record, replace(data, solutions=tuple(item for item in data.solutions if item is own)), style)
+    yield f"All {len(data.solutions)} are one way of each limb; --all lists them:"
+    driven = zip(data.input_names, record.inputs, strict=True)
+    units = {name: record.angle if one.coordinate.kind == "angle" else record.unit for name, one in driven}
+    rows = []
+    for limb in data.limbs:
+        texts = [
+            ", ".join(f"{name} = {short(value)} {units[name]}" for name, value in way.items()) for way in limb.ways
+        ]
+        rows.append((", ".join(limb.joints), str(len(limb.ways)), "\n".join(dict.fromkeys(filter(None, texts)))))
+    yield table(("limb", "ways", "inputs"), rows, left=("limb", "inputs"))
 
 
 def _headline(record: Mechanism, data: Positions, branches: int) -> str:
@@ -237,7 +264,10 @@ def failures(items: Sequence[NegativeQuantity]) -> RenderableType:
 
 def _completeness(record: Mechanism, data: Positions) -> str:
     form = record.closed_form
-    because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
+    left_out = "crossed parallelograms are left out; --crossed adds them"
+    if form is not None and "loops in turn" not in data.right:
+        left_out = form.reduced_because
+    because = f" ({left_out})" if left_out else ""
     reduced = data.complete_for == "reduced"
     model = f"the reduced model{because}" if reduced else "the joint graph"
     if data.status == "not_closed":

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import sympy
 
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.witness import ModularWitness
 
 Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
@@ -98,6 +99,13 @@ def projected(
     """Lengths as forms of what is left, and what is left of the equations, each projected on its own coefficients.
 
     A length along a unit vector a has the coefficients a in three equations: a of these is it, whatever a is.
+
+    Errors:
+        NotDerivedError: a length that no equation is left for.
+
+    >>> x, y = sympy.symbols("x y")
+    >>> projected([{x: ONE, y: -ONE}], [x], ModularWitness())
+    ({x: {y: 1}}, [])
     """
     left, values = list(forms), dict[sympy.Symbol, Form]()
     for length in lengths:
@@ -105,6 +113,10 @@ def projected(
         pivot: Form = {}
         for row in rows:
             pivot = combined(pivot, row[length], row, witness)
+        if length not in pivot:
+            raise NotDerivedError(
+                f"no equation is left that says how far {length} slides, beside those of other slides"
+            )
         size = sympy.simplify(pivot[length])
         own = {key: tidy(-part / size) for key, part in pivot.items() if key != length}
         left = [form for form in (replaced(form, {length: own}, witness) for form in left) if form]

@@ -10,8 +10,12 @@ from assur.figures.letters import GREEK, mathematics, words
 LONGEST = 300
 """Characters of a label at most; nested deeper, the setting of type runs out of stack."""
 _KEPT = re.compile(r"[^A-Za-z0-9 .,'+-]")
-_LETTER = re.compile(rf"(?:[A-Za-z]|\\(?:{'|'.join(GREEK)}))(?:_(?:[A-Za-z0-9]|\{{[A-Za-z0-9,]+\}}))?")
-"""One letter with one index, which can always be set."""
+_SCRIPTS = r"(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9,]+(?:_[0-9])?\}))?(?:\^[0-9])?"
+_WORD = rf"\\(?:{'|'.join(sorted(GREEK))}|varphi|Pi|sin|cos)(?![A-Za-z])"
+_NAME = rf"(?:[A-Za-z0-9)|]|\\mathbf\{{[A-Za-z]\}}|{_WORD}){_SCRIPTS}"
+_BETWEEN = r"[-+=/,( ]|\\[, ]|\\(?:times|cdot|pm|det|angle|partial)(?![A-Za-z])"
+_PLAIN = re.compile(rf"(?:{_NAME}|{_BETWEEN})+")
+"""Sums, products and equations of letters with one index and one power, which can always be set."""
 
 
 @lru_cache(maxsize=4096)
@@ -21,11 +25,11 @@ def is_settable(latex: str) -> bool:
     >>> is_settable(r"\theta_{1}"), is_settable(r"\theta_{1"), is_settable("a_b_c"), is_settable("a$ $b")
     (True, False, False, False)
     """
-    if _LETTER.fullmatch(latex):
-        return True
     plain = latex.replace(r"\$", "")
     if not latex.strip() or len(latex) > LONGEST or "$" in plain or not latex.isprintable():
         return False
+    if _PLAIN.fullmatch(latex):
+        return True
     from matplotlib.mathtext import MathTextParser  # slow to load, and few files need it
 
     try:

@@ -8,18 +8,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Interrupted
+from assur.kinematics.border import held_inputs
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
-from assur.kinematics.limbs.inverse import inverse_by_limbs
-from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
+from assur.kinematics.limbs.solving import LimbSolutions
+from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
+from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
 from assur.kinematics.platforms.direct import direct_by_conditions
-from assur.kinematics.search import search
+from assur.kinematics.platforms.inverse import inverse_by_limbs
+from assur.kinematics.rates.architecture import self_motion_dimension
+from assur.kinematics.search import SAME, STARTS, places, search
+from assur.kinematics.starts import by_chance
 from assur.kinematics.validation.check import check
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
+POINTS = 8
+"""Assemblies that are listed of self-motions, which have infinitely many."""
 
 
 def assemblies(
@@ -43,10 +51,11 @@ def assemblies(
         given,
         joints.reshape(*batch, *joints.shape[1:]),
         all_known=all(item.complete for item in found),
-        model="reduced" if record.generalised and all(item.uncrossed for item in found) else "joint_graph",
+        model="reduced" if all(item.uncrossed for item in found) else "joint_graph",
         reason="; ".join(dict.fromkeys(item.right for item in found)),
         nearest=np.array([item.nearest for item in found]).reshape(batch),
         only=only,
+        limbs=found[0].limbs if given.ndim == 1 else (),
     )
     if any(item.interrupted for item in found):
         raise Interrupted(answer)
@@ -63,17 +72,51 @@ class _Assemblies:
     nearest: float
     uncrossed: bool
     interrupted: bool = False
+    limbs: tuple[LimbSolutions, ...] = ()
+
+
+def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed: bool) -> LoopSolutions:
+    """Without a search, by what is complete; else what the loops give."""
+    if problem == "inverse":
+        own = inverse_by_limbs(record, given)
+        return own if own and own.complete else solve_by_loops(record, pose=given, crossed=crossed)
+    turn = solve_by_loops(record, given, crossed=crossed)
+    own = None if turn.complete else direct_by_conditions(record, given)
+    return own if own and own.complete else turn
+
+
+def _of_self_motions(record: MechanismRecord, inputs: FloatArray) -> _Assemblies:
+    """Of an architecturally singular mechanism: no assembly where that is proved, else points far from each other."""
+    known = direct_by_conditions(record, inputs)
+    if known and known.complete:
+        return _Assemblies(known.joints, True, known.right, np.nan, False)
+    begun = np.concatenate([home_values(record)[None], by_chance(record, STARTS - 1, np.random.default_rng(0))])
+    closed = assemble(record, held_inputs(record, begun, inputs), held=record.input_indices, far=True)
+    joints = closed.values[closed.closed]
+    right = f"not proved: a search from {STARTS} starts, of whose assemblies up to {POINTS} are kept"
+    joints = joints[nearest_first(record, joints)]
+    return _Assemblies(joints[_apart(places(record, joints))], False, right, float(np.min(closed.residual)), False)
+
+
+def _apart(where: FloatArray) -> list[int]:
+    """Rows of places (N, k), the first one and others that are farthest from those before; `POINTS` at most."""
+    kept: list[int] = []
+    away = np.full(len(where), np.inf)
+    while len(kept) < POINTS and np.max(away, initial=0.0) > SAME:
+        kept.append(int(np.argmax(away)))
+        away = np.minimum(away, np.max(np.abs(where - where[kept[-1]]), axis=1))
+    return kept
 
 
 def _assemblies(
     record: MechanismRecord, problem: Problem, given: FloatArray, method: Method, crossed: bool
 ) -> _Assemblies:
+    if problem == "direct" and self_motion_dimension(record):
+        return _of_self_motions(record, given)
     if method != "search":
-        asked = {"inputs": given} if problem == "direct" else {"pose": given}
-        known = (inverse_by_limbs if problem == "inverse" else direct_by_conditions)(record, given)
-        turn = known if known and known.complete else solve_by_loops(record, **asked, crossed=crossed)
+        turn = _known(record, problem, given, crossed)
         if turn.complete or method == "loops" or (crossed and len(turn.joints)):
-            return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
+            return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, bool(turn.kept), limbs=turn.limbs)
     interrupted = False
     try:
         found = search(record, problem, given)
@@ -83,7 +126,7 @@ def _assemblies(
         f"of which number {found.last_new} found the last new one" if len(found.joints) else "none of which found one"
     )
     reason = f"not proved: a search from {found.starts} starts, {last}"
-    if crossed or not record.generalised or crossed_parallelograms(record, home_values(record)):
+    if crossed or not parallelograms(record) or crossed_parallelograms(record, home_values(record)):
         return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
     kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]
     left_out = len(found.joints) - len(kept)

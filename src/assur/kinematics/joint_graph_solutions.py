@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
-from assur.kinematics.loops.loops import crossed_parallelograms
+from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Problem, is_of_mode, lettered, mode_texts
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.pose import pose_of
@@ -22,6 +22,9 @@ from assur.kinematics.rates.finite_motion import status_of
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, Status
 from assur.model.mechanism import MechanismRecord
+
+if TYPE_CHECKING:
+    from assur.kinematics.limbs.solving import LimbSolutions
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -36,6 +39,15 @@ class JointGraphSolutions(SolutionSet):
         all_known: whether these are known to be all of the `model`, by what `reason` says.
         nearest: (...) the smallest gap that a problem without solution could be brought to, in length units.
         only: the mode to which the answer is narrowed; empty for all of them.
+        limbs: of one pose whose assemblies are all choices of one way a limb, these ways; else empty.
+
+    Example: six legs, each ahead or behind.
+
+    >>> from assur.kinematics.position import inverse
+    >>> from assur.model.registry import load_record
+    >>> mine = inverse(load_record("planar_3rrr"), [0.0, 0.0, 0.0], method="loops")
+    >>> len(mine), [len(limb.values) for limb in mine.limbs]
+    (8, [2, 2, 2])
     """
 
     record: MechanismRecord
@@ -47,6 +59,7 @@ class JointGraphSolutions(SolutionSet):
     reason: str
     nearest: FloatArray
     only: str = ""
+    limbs: tuple[LimbSolutions, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -144,7 +157,7 @@ class JointGraphSolutions(SolutionSet):
         """Names (..., K) of the parallelograms that are crossed, each after a tilde."""
         texts = np.zeros(self._there.shape, dtype=object)
         texts[...] = ""
-        if self.record.generalised:
+        if parallelograms(self.record):
             for place in zip(*np.nonzero(self._there), strict=True):
                 texts[place] = "".join(
                     f"~{name}" for name in crossed_parallelograms(self.record, self.assemblies[place])

@@ -126,10 +126,12 @@ def _answer(
             return _branches(record, problem, given, mode)
         from assur.kinematics.closed_form.polynomials import polynomial_solutions  # no branch needs it
 
-        return polynomial_solutions(record, kernel, given, _lettered_mode(record, problem, mode), method)
+        return polynomial_solutions(record, kernel, given, _lettered_mode(record, problem, mode, given, method), method)
     from assur.kinematics.assemblies import assemblies  # loops and searches, which no closed form needs
 
-    return assemblies(record, problem, given, _lettered_mode(record, problem, mode), method, crossed=crossed)
+    return assemblies(
+        record, problem, given, _lettered_mode(record, problem, mode, given, method), method, crossed=crossed
+    )
 
 
 def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None) -> Branches:
@@ -152,10 +154,12 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
 
 
-def _lettered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:
+def _lettered_mode(
+    record: MechanismRecord, problem: Problem, mode: str | None, given: FloatArray, method: Method
+) -> str:
     """A mode as it may be asked of solutions on the joint graph: signs, a letter of those that share them, or both.
 
-    A number names none: before, it counted the solutions of one pose.
+    A number names none; the refusal says which name the solution has that it counted.
     """
     if mode is None:
         return ""
@@ -166,8 +170,25 @@ def _lettered_mode(record: MechanismRecord, problem: Problem, mode: str | None) 
         choices = ["".join(signs) for signs in itertools.product("+-", repeat=min(len(names), MOST_SIGNS))]
         each = f"one sign + or - for each of: {', '.join(names)}; " if names else ""
         hint = f"{each}a letter may follow, as in {'+' * len(names)}a, where several solutions share them"
+        renamed = _renamed(record, problem, mode, given, method)
+        hint = f"{hint}; {renamed}" if renamed else hint
         raise UnknownNameError(f"{_kind(problem)} of {record.name}", mode, choices if names else ["a", "b"], hint=hint)
     return mode
+
+
+def _renamed(record: MechanismRecord, problem: Problem, mode: str, given: FloatArray, method: Method) -> str:
+    """What a mode is called that is given by a number, of all solutions or of those that share signs; "" of others."""
+    numbered = re.fullmatch(r"([-+0]*)/?([1-9]\d{0,3})", mode)
+    if not numbered:
+        return ""
+    said = "a number is no name"
+    if given.ndim > 1:
+        return f"{said}; {_kind(problem)}s of one problem are listed by `assur {problem}`"
+    solutions = _answer(record, problem, given, None, method, crossed=False)
+    labels = [str(label) for label in solutions.labels[solutions.exists]]
+    alike, number = [label for label in labels if label.startswith(numbered[1])], int(numbered[2])
+    known = f"number {mode} is now {alike[number - 1]}" if number <= len(alike) else f"of {mode} there is none"
+    return f"{said}: where this was asked {known}"
 
 
 def _kind(problem: Problem) -> str:

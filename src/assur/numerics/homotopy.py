@@ -7,6 +7,7 @@ unknowns are homogeneous. Where solutions meet at the end, or at infinity, an en
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -44,17 +45,28 @@ class PathEnd(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class PathEnds:
-    """Ends x (N, n) of paths, of length 1, what they are, `PathEnd` (N,), and the number of steps of the slowest."""
+    """Ends of paths.
+
+    Attributes:
+        x: (N, n), of length 1; of lost paths where they were last in the end game, or at its first radius.
+        end: (N,), what they are, `PathEnd`.
+        near: (N,), whether x is at the end or on a circle round it, smaller than the largest.
+        steps: of the slowest path.
+    """
 
     x: ComplexArray
     end: NDArray[np.int8]
+    near: BoolArray
     steps: int
 
 
-def solve(system: ExpandedSystem, starts: ComplexArray) -> PathEnds:
+def solve(
+    system: ExpandedSystem, starts: ComplexArray, useless: Callable[[ComplexArray], BoolArray] | None = None
+) -> PathEnds:
     """Follow every start (K, n), a solution at t = 1, to t = 0 in each of P problems: ends (P K), problem by problem.
 
-    Paths that were lost, or came together at a regular end, where two cannot, are followed again with smaller steps.
+    Paths that were lost, or came together at a regular end, where two cannot, are followed again with smaller steps;
+    not so those that were lost at points (N, n) which are `useless`: they have ended there.
 
     Example: the square roots of -4 and of 9, from those of 1.
 
@@ -69,10 +81,13 @@ def solve(system: ExpandedSystem, starts: ComplexArray) -> PathEnds:
     problem = np.repeat(np.arange(count), len(starts))
     first = np.tile(starts, (count, 1))
     ends = follow(system, first, problem)
+    if useless is not None:
+        near = np.flatnonzero((ends.end == PathEnd.lost) & ends.near)
+        ends.end[near[useless(ends.x[near])]] = PathEnd.singular
     again = np.flatnonzero((ends.end == PathEnd.lost) | _together(ends, count))
     if len(again):
         better = follow(system, first[again], problem[again], close=CLOSE / 100)
-        ends.x[again], ends.end[again] = better.x, better.end
+        ends.x[again], ends.end[again], ends.near[again] = better.x, better.end, better.near
         ends.end[_together(ends, count)] = PathEnd.lost
     return ends
 
@@ -89,12 +104,12 @@ def follow(system: ExpandedSystem, x: ComplexArray, problem: IndexArray, *, clos
     last, converged = polished(system, last, np.zeros(count), problem)
     regular = arrived & reached & converged & (rank_gap(system, last, problem) > REGULAR)
     end = np.where(regular, PathEnd.regular, PathEnd.lost).astype(np.int8)
+    last[~regular], near = before[~regular], regular.copy()
     rest = np.flatnonzero(arrived & ~regular)
     if len(rest):
-        limit, settled = _end_game(system, before[rest], problem[rest], close)
-        last[rest[settled]] = limit[settled]
+        last[rest], settled, near[rest] = _end_game(system, before[rest], problem[rest], close)
         end[rest[settled]] = PathEnd.singular
-    return PathEnds(last, end, steps + more)
+    return PathEnds(last, end, near, steps + more)
 
 
 def rank_gap(system: ExpandedSystem, x: ComplexArray, problem: IndexArray) -> FloatArray:
@@ -128,21 +143,27 @@ def _together(ends: PathEnds, count: int) -> BoolArray:
 
 def _end_game(
     system: ExpandedSystem, x: ComplexArray, problem: IndexArray, close: float
-) -> tuple[ComplexArray, BoolArray]:
-    """Limits (N, n) at t = 0 of paths that are at x (N, n) at the first radius, and whether they have settled (N,)."""
+) -> tuple[ComplexArray, BoolArray, BoolArray]:
+    """Limits (N, n) at t = 0 of paths that are at x (N, n) at the first radius, and whether they have settled (N,).
+
+    Of those that have not, where they were last, and whether (N,) that is nearer than the first radius.
+    """
+    points = x.copy()
     limit, closed = _limits(system, x, problem, RADII[0], close)
-    settled = np.zeros(len(x), dtype=bool)
-    rows = np.flatnonzero(closed)
+    settled, near = np.zeros(len(x), dtype=bool), np.zeros(len(x), dtype=bool)
+    rows = np.arange(len(x))
     for first, last in itertools.pairwise(RADII):
         ways = np.full(len(rows), first), np.full(len(rows), last)
-        nearer, arrived, _ = along(system, x[rows], problem[rows], *ways, close)
-        x[rows], rows = nearer, rows[arrived]
-        again, closed = _limits(system, x[rows], problem[rows], last, close)
-        same = closed & (_distance(again, limit[rows]) < SETTLED)
-        limit[rows[closed]] = again[closed]
+        nearer, arrived, _ = along(system, points[rows], problem[rows], *ways, close)
+        points[rows[arrived]], rows = nearer[arrived], rows[arrived]
+        near[rows] = True
+        before = closed[rows]
+        again, now = _limits(system, points[rows], problem[rows], last, close)
+        same = before & now & (_distance(again, limit[rows]) < SETTLED)
+        limit[rows], closed[rows] = again, now
         settled[rows[same]] = True
-        rows = rows[closed & ~same]
-    return limit, settled
+        rows = rows[~same]
+    return np.where(settled[:, None], limit, points), settled, near
 
 
 def _limits(

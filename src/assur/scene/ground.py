@@ -123,7 +123,7 @@ def bed(skeleton: Skeleton, slider: JointMark, deep: float) -> tuple[FloatArray,
     if not deep:
         return side, up
     half = 0.5 * skeleton.size * axis
-    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base])
+    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
 
     def room(way: FloatArray) -> float:
         middle = slider.rail - deep * way

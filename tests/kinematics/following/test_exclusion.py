@@ -125,18 +125,19 @@ def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
 
 
 def test_a_platform_that_home_never_turns_over_is_in_another_mode_where_it_is(tmp_path):
-    """The proof wants all solutions: what a search found is turned over too, but may not be all."""
+    """The proof wants all solutions: what a search met is turned over too, but may not be all."""
     turning = load(drafted(tmp_path, "turning", TURNING))
     pose = np.array([10.0, 300.0, np.radians(5)])
     there = inverse(turning, pose)
+    assert there.complete
     joints = there.joints[there.exists]
     assert otherwise(turning, joints) == ["how the platform is turned"] * len(joints)
     moved = inverse(turning, [10.0, 300.0, 0.0])
     upright = moved.joints[moved.exists][0]
     assert otherwise(turning, np.stack([turning.home_values, upright])) == ["", ""]
-    assert home_mode_at(turning, pose, detours=0, known=there).status is Status.undecided
-    proved = dataclasses.replace(there, all_known=True)
-    assert isinstance(proved, JointGraphSolutions)
-    found = home_mode_at(turning, pose, detours=0, known=proved)
+    met = dataclasses.replace(there, all_known=False)
+    assert isinstance(met, JointGraphSolutions)
+    assert home_mode_at(turning, pose, detours=0, known=met).status is Status.undecided
+    found = home_mode_at(turning, pose, detours=0, known=there)
     assert found.status is Status.unreachable
     assert "how the platform is turned stays as at home" in found.words

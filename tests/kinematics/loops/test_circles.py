@@ -17,7 +17,7 @@ from assur.model.registry import load_record
 
 def _system(record: MechanismRecord) -> tuple[System, dict[int, float]]:
     locked = {index: float(home_values(record)[index]) for index in record.input_indices}
-    turning = turnings(record, locked, None, parallel=tuple(record.generalised))
+    (turning,) = turnings(record, locked, None, parallel=tuple(record.generalised))
     return system(record, turning, locked, {}), locked
 
 

@@ -15,7 +15,7 @@ def _solved(name: str, locked: dict[int, float] | None = None) -> Solved:
     mechanism = assur.load(name)
     if locked is None:
         locked = {index: float(home_values(mechanism)[index]) for index in mechanism.input_indices}
-    turning = turnings(mechanism, locked, None, parallel=tuple(mechanism.generalised))
+    (turning,) = turnings(mechanism, locked, None, parallel=tuple(mechanism.generalised))
     return solve(system(mechanism, turning, locked, {}))
 
 

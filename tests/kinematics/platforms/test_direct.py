@@ -1,4 +1,6 @@
-"""Six distances: the poses are those of the closed form, and those that a search meets; all are known."""
+"""All assemblies of platforms on serial limbs: those of closed forms, of loops in turn, and all that a search meets."""
+
+import dataclasses
 
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ import assur
 from assur.cli.main import main
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
+from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import distinct, search
@@ -25,21 +28,60 @@ def test_the_poses_are_those_of_the_closed_form():
         assert np.min(np.max(np.abs(poses - pose), axis=1)) < 1e-6
 
 
-@pytest.mark.parametrize("name", ["6-RUS", pytest.param("6-UPS", marks=pytest.mark.deep),
-                                  pytest.param("6-PUS", marks=pytest.mark.deep)])  # fmt: skip
-def test_a_draft_has_all_that_a_search_meets(name, tmp_path):
-    path = tmp_path / "mine.toml"
-    assert main(["new", str(path), name]) == 0
-    record = load_record(path)
+ARRANGEMENTS = {
+    "6-RUS": ("6-RUS",),
+    "6-UPS": ("6-UPS",),
+    "6-PUS": ("6-PUS",),
+    "3-RPS": ("3-RPS",),
+    "3-SPR": ("3-SPR",),
+    "3-RRS": ("3-RRS",),
+    "3-PRS": ("3-PRS", "upright rails"),
+    "3UPS&UP": ("3UPS&UP",),
+    "2UPR-SPR": ("2UPR-SPR",),
+    "2UPR-RPU": ("2UPR-RPU",),
+    "3-RRR": ("3-RRR", "spherical"),
+    "3-UPS/S": ("3-UPS/S",),
+}
+QUICK = ("6-RUS", "3-SPR", "2UPR-SPR", "3-RRR")
+
+
+@pytest.fixture(
+    scope="module",
+    params=[name if name in QUICK else pytest.param(name, marks=pytest.mark.deep) for name in ARRANGEMENTS],
+)
+def drafted(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("platforms") / "mine.toml"
+    assert main(["new", str(path), *ARRANGEMENTS[request.param]]) == 0
+    return load_record(path)
+
+
+def beside_home(record, seed):
     home = home_values(record)
     inputs = np.array([driven.printed(home[driven.coordinate.index]) for driven in record.inputs])
-    inputs = inputs + np.random.default_rng(3).uniform(-0.05, 0.05, 6) * np.where(np.abs(inputs) > 10, inputs, 1.0)
-    solutions = direct_by_conditions(record, inputs)
+    rng = np.random.default_rng(seed)
+    return inputs + rng.uniform(-0.05, 0.05, len(inputs)) * np.where(np.abs(inputs) > 10, inputs, 1.0)
+
+
+def test_a_draft_has_all_that_a_search_meets(drafted):
+    inputs = beside_home(drafted, 3)
+    solutions = direct_by_conditions(drafted, inputs)
     assert solutions.complete
-    assert np.max(closure_error(record, solutions.joints)) < 1e-9
-    met = search(record, "direct", inputs).joints
+    assert np.max(closure_error(drafted, solutions.joints)) < 1e-9
+    met = search(drafted, "direct", inputs).joints
     assert len(met) > 0
-    assert len(distinct(record, np.concatenate([solutions.joints, met]))) == len(solutions.joints)
+    assert len(distinct(drafted, np.concatenate([solutions.joints, met]))) == len(solutions.joints)
+
+
+@pytest.mark.parametrize("name", ["three_rps", "planar_3rrr", "planar_3rpr", "tripteron"])
+def test_the_loops_in_turn_give_the_same(name):
+    """Another way to all roots, which shares no equation: points on circles, eliminated one after another."""
+    record = load_record(name)
+    for seed in range(3):
+        inputs = beside_home(record, seed)
+        loops, solutions = solve_by_loops(record, inputs), direct_by_conditions(record, inputs)
+        assert (loops.complete, solutions.complete) == (True, True)
+        assert len(distinct(record, np.concatenate([loops.joints, solutions.joints]))) == len(loops.joints)
+        assert len(loops.joints) == len(solutions.joints)
 
 
 def test_forty_real_poses_are_all_found():
@@ -50,6 +92,12 @@ def test_forty_real_poses_are_all_found():
     assert (len(solutions.joints), solutions.complete) == (40, True)
 
 
-def test_other_mechanisms_are_no_six_distances():
-    assert direct_by_conditions(load_record("three_rps"), np.full(3, 300.0)) is None
+def test_limbs_with_inner_loops_are_left_to_others():
     assert direct_by_conditions(load_record("zeng2019"), np.full(3, 10.0)) is None
+
+
+def test_a_platform_that_drives_leave_free_is_none_of_these(tmp_path):
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), "--limb", "U[x,y] P[z] S", "--count", "6"]) == 0
+    loose = dataclasses.replace(load_record(path), inputs=load_record(path).inputs[:5])
+    assert direct_by_conditions(loose, beside_home(loose, 1)) is None

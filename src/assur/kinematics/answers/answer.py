@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,10 +30,14 @@ from assur.results.answers.position import (
     DoubleSolution,
     InputsSolution,
     InverseAnswer,
+    LimbWays,
     NegativeQuantity,
     PoseCurve,
     PoseSolution,
 )
+
+if TYPE_CHECKING:
+    from assur.kinematics.limbs.solving import LimbSolutions
 
 
 def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
@@ -50,6 +54,7 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     shared: dict[str, Any] = {
         **mechanism_header(record),
         "input_names": border.input_names(record),
+        "architecture": _architecture(record),
         "status": Status(int(solutions.overall_status)).name,
         "complete": solutions.complete,
         "complete_for": solutions.complete_for,
@@ -83,7 +88,32 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
         InputsSolution(**said, inputs=inputs_at_border(record, item.inputs).tolist(), assembly_mode=item.assembly_mode)
         for item, said in marked
     )
-    return InverseAnswer(**shared, pose=pose_at_border(record, solutions.given).tolist(), solutions=tuple(inputs))
+    return InverseAnswer(
+        **shared,
+        pose=pose_at_border(record, solutions.given).tolist(),
+        solutions=tuple(inputs),
+        limbs=tuple(_ways(record, limb) for limb in solutions.limbs),
+    )
+
+
+def _ways(record: MechanismRecord, limb: LimbSolutions) -> LimbWays:
+    """The inputs of each way, printed."""
+    values = np.full((len(limb.values), len(record.inputs)), np.nan)
+    own = [k for k, driven in enumerate(record.inputs) if driven.coordinate.index in limb.indices]
+    for k in own:
+        driven = record.inputs[k]
+        values[:, k] = driven.printed(limb.values[:, limb.indices.index(driven.coordinate.index)])
+    names, printed = border.input_names(record), inputs_at_border(record, values)
+    return LimbWays(limb.limb.joints, tuple({names[k]: float(row[k]) for k in own} for row in printed))
+
+
+def _architecture(record: MechanismRecord) -> str:
+    """That a mechanism without closed form is architecturally singular; one with a closed form has regular branches."""
+    if record.closed_form is not None:
+        return ""
+    from assur.kinematics.rates.architecture import architecture_text  # not loaded where it is not asked
+
+    return architecture_text(record)
 
 
 def _signs(solutions: SolutionSet) -> dict[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
+
+if TYPE_CHECKING:
+    from assur.kinematics.limbs.solving import LimbSolutions
 
 FloatArray = NDArray[np.float64]
 BLOCK = 4096
@@ -111,6 +115,11 @@ class SolutionSet(ABC):
     @abstractmethod
     def failures(self) -> tuple[Failure, ...]:
         """Why there is no solution (a batch of one); empty where there is one."""
+
+    @property
+    def limbs(self) -> tuple[LimbSolutions, ...]:
+        """Of one inverse problem whose solutions are all choices of one way a limb, these ways; else empty."""
+        return ()
 
     def __repr__(self) -> str:
         size = f"batch {self.batch_shape}, {self.candidates} branches"

@@ -8,20 +8,22 @@ with another one that does, so that what looks alike bears one name.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closing_blocks.by_name import in_file_order, sorted_by_name
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
-from assur.kinematics.closing_blocks.signs import Factor, factors
+from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
 from assur.kinematics.closure import assemble
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.search import SAME, places
-from assur.kinematics.starts import by_chance
+from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
 
@@ -30,6 +32,9 @@ IntArray = NDArray[np.int_]
 SignArray = NDArray[np.int8]
 PROBLEMS, STARTS = 3, 160
 """Problems whose solutions are to be told apart, home's first, and starts by chance for each."""
+
+ROUNDS = 2
+"""How often more starts are made where few of them lead to an assembly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,18 +60,26 @@ class ModeSign:
 
 @lru_cache(maxsize=64)
 def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
-    """The signs that name the modes of a problem; home reads + in each.
+    """The signs that name the modes of a problem; home reads + in each where it is regular.
 
     >>> from assur.model.registry import load_record
     >>> [sign.joints for sign in distinguishing_signs(load_record("fivebar"), "direct")]
     [('B1', 'B2', 'P')]
     """
-    known = factors(record, problem)
-    answers = [_Solutions.of(record, problem, target, known) for target in _targets(record)]
+    if problem == "direct" and self_motion_dimension(record):
+        return ()  # the platform is held nowhere: each assembly leads into others
+    ordered = sorted_by_name(record)
+    known = factors(ordered, problem)
+    answers = [_Solutions.of(ordered, problem, target, known) for target in _targets(ordered, known)]
     combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
     order = _separating(columns, [answer.solution for answer in answers])
-    return tuple(ModeSign(tuple(known[k] for k in combinations[place])) for place in sorted(order))
+    own = [_in_file_order(factor, record) for factor in known]
+    return tuple(ModeSign(tuple(own[k] for k in combinations[place])) for place in sorted(order))
+
+
+def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
+    return replace(factor, block=in_file_order(factor.block, record)) if isinstance(factor, BlockSign) else factor
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,15 +115,35 @@ class _Solutions:
         return np.unique(self.signs != self.signs[first][same], axis=0)
 
 
-def _targets(record: MechanismRecord) -> FloatArray:
-    """Assemblies (P, n), home first, whose inputs or poses are asked."""
+def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
+    """Assemblies (P, n), home first, whose inputs or poses are asked.
+
+    A singular home is none: solutions merge there, and rounding decides their signs.
+    """
     values = assemblies_by_chance(record)
+    home = ScrewColumns(record, values[:1])
+    if len(values) > 1 and not all(factor.signs(home)[0] for factor in known):
+        values = values[1:]
     return values[:: -(-len(values) // PROBLEMS)]
 
 
 def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> FloatArray:
-    """Assemblies (N, n) at the inputs or the pose of another, in which still stands what does about home."""
-    begun = np.concatenate([target[None], by_chance(record, STARTS, np.random.default_rng(0))])
+    """Assemblies (N, n) at the inputs or the pose of another, in which still stands what does about home.
+
+    Where few starts by chance lead to one, as in loops of rods on balls, others begin as parts of those that are known.
+    """
+    rng = np.random.default_rng(0)
+    values = _closed(record, problem, target, np.concatenate([target[None], by_chance(record, STARTS, rng)]))
+    for _ in range(ROUNDS):
+        if not 0 < len(values) < STARTS // 4:
+            break
+        begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
+        values = np.concatenate([values, _closed(record, problem, target, begun)])
+    return values
+
+
+def _closed(record: MechanismRecord, problem: Problem, target: FloatArray, begun: FloatArray) -> FloatArray:
+    """Those (N, n) to which starts (S, n) lead."""
     if problem == "direct":
         starts = held_inputs(record, begun, inputs_of(record, target))
         closed = assemble(record, starts, held=record.input_indices, far=True)

@@ -56,6 +56,8 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
         if side:
             return side
     joints = ", ".join(_text(name) for name in sign.joints)
+    if not sign.signs(screws)[0]:
+        return f"the loops of {joints} stand on one side of where they are singular; at home they are"
     return f"the loops of {joints} stand on home's side of where they are singular"
 
 

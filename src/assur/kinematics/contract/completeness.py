@@ -14,7 +14,7 @@ from assur.kinematics.contract.borders import named_by_signs, refusing
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.home import home_values
-from assur.kinematics.loops.loops import crossed_parallelograms
+from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.modes import Problem, mode_text
 from assur.kinematics.pose import pose_error, pose_of
 from assur.kinematics.rates.motions import InstantaneousMotion

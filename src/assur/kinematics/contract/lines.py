@@ -9,7 +9,6 @@ from pathlib import Path
 
 from assur.kinematics.contract.mismatch import Mismatch
 
-KERNELS = {"inverse": "inverse", "direct": "direct"}
 MOST = 1_000_000
 """Characters that are read; a longer file has no lines told."""
 

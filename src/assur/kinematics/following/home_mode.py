@@ -23,6 +23,7 @@ from assur.kinematics.border import in_range, inputs_of
 from assur.kinematics.following.course import Prescribed, Turns
 from assur.kinematics.following.exclusion import MERGED, of_other_signs
 from assur.kinematics.following.following import follow
+from assur.kinematics.following.locked import ranks_from
 from assur.kinematics.following.path import Path, Stop
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_text
@@ -200,9 +201,10 @@ def _modes(names: Sequence[str]) -> str:
 def _path(
     record: MechanismRecord, home: FloatArray, goal: FloatArray, prescribed: Prescribed, turns: Turns = "short"
 ) -> Path:
+    ranks = ranks_from(record, home, prescribed)
     if prescribed == "poses":
-        return follow(record, home, poses=goal, turns=turns, use_limits=False)
-    return follow(record, home, inputs=goal, turns=turns, use_limits=False)
+        return follow(record, home, poses=goal, turns=turns, use_limits=False, ranks=ranks)
+    return follow(record, home, inputs=goal, turns=turns, use_limits=False, ranks=ranks)
 
 
 def _other_ways(

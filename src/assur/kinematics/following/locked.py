@@ -24,6 +24,9 @@ FloatArray = NDArray[np.float64]
 RANK = 1e-7
 """Singular values below this share of the largest count as zero."""
 
+ZERO = 1e-6
+"""A singular value up to here is zero at the start of a way, without dimensions."""
+
 NEIGHBOURS = 4
 """Assemblies near the start that are asked for the rank in general."""
 
@@ -67,6 +70,16 @@ def general_ranks(record: MechanismRecord, values: FloatArray) -> dict[str, int]
     for name, independent in (("inputs", usual.inputs), ("poses", usual.pose)):
         ranks[name] = min(max(ranks[name], ranks["closure"] + int(independent)), len(values))
     return ranks
+
+
+def ranks_from(record: MechanismRecord, values: FloatArray, prescribed: Prescribed) -> dict[str, int]:
+    """Ranks by which a way from an assembly (n,) is guarded that may be singular where nothing is prescribed.
+
+    Of what is not prescribed the rank there counts: what is lost already can neither be lost nor kept.
+    """
+    ranks, other = general_ranks(record, values), own(prescribed)[1]
+    at_start = int(np.sum(np.linalg.svd(matrices(record, values)[other], compute_uv=False) > ZERO))
+    return {**ranks, other: min(ranks[other], at_start)}
 
 
 def smallest(record: MechanismRecord, values: FloatArray, ranks: Mapping[str, int]) -> dict[str, FloatArray]:

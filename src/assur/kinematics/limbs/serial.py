@@ -6,9 +6,8 @@ turns, a cylindrical joint a slide and a turn; a ball joint is one motion about 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -50,6 +49,11 @@ class ElementaryMotion:
         return ElementaryMotion(self.kind, axis, rotation @ self.point + shift, self.index, self.sense)
 
     @property
+    def indices(self) -> tuple[int, ...]:
+        """Of all its coordinates."""
+        return tuple(range(self.index, self.index + (3 if self.kind == "ball" else 1)))
+
+    @property
     def back(self) -> ElementaryMotion:
         """The opposite motion."""
         return ElementaryMotion(self.kind, self.axis, self.point, self.index, -self.sense)
@@ -70,59 +74,22 @@ class SerialLimb:
     zero: Frame
 
 
-@lru_cache(maxsize=64)
-def serial_limbs(record: MechanismRecord) -> tuple[SerialLimb, ...]:
-    """The limbs of a mechanism, each a series of joints from the base to the platform.
+def serial_limb(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> SerialLimb:
+    """Joints as a series from one link to another; `zero` and the motions are in the frame of the first.
 
     Errors:
-        NotSerialError: a limb with an inner loop, a screw, or links that hang on others.
+        NotSerialError: they are none, or one of them is a screw.
 
     >>> from assur.model.registry import load_record
-    >>> [limb.joints for limb in serial_limbs(load_record("planar_3rrr"))][0]
-    ('leg1.A', 'leg1.B', 'leg1.C')
+    >>> record = load_record("planar_3rrr")
+    >>> limb = serial_limb(record, ["leg1.C", "leg1.A", "leg1.B"], record.base, record.platform.link)
+    >>> limb.joints, len(limb.motions)
+    (('leg1.A', 'leg1.B', 'leg1.C'), 3)
     """
-    ends = {record.base, record.platform.link}
-    limbs = [_limb(record, (name,)) for name, joint in record.joints.items() if {joint.parent, joint.child} == ends]
-    for links in _parts(record, ends):
-        own = [name for name, joint in record.joints.items() if {joint.parent, joint.child} & links]
-        if len(own) != len(links) + 1:
-            raise NotSerialError(f"{', '.join(sorted(links))} form no series of joints")
-        limbs.append(_limb(record, _in_order(record, own)))
-    order = [*record.joints]
-    return tuple(sorted(limbs, key=lambda limb: min(map(order.index, limb.joints))))
-
-
-def _parts(record: MechanismRecord, ends: set[str]) -> Iterator[set[str]]:
-    """Links that hang together, base and platform left out."""
-    left = [link for link in record.links if link not in ends]
-    while left:
-        part = [left[0]]
-        for link in part:
-            near = (joint for joint in record.joints.values() if link in (joint.parent, joint.child))
-            part += {_other(joint, link) for joint in near} - ends - {*part}
-        yield {*part}
-        left = [link for link in left if link not in part]
-
-
-def _in_order(record: MechanismRecord, names: list[str]) -> tuple[str, ...]:
-    """Joints from the base to the platform, each on the link that the one before leads to."""
-    left, link, order = [*names], record.base, list[str]()
-    while left:
-        following = [name for name in left if link in (record.joints[name].parent, record.joints[name].child)]
-        if len(following) != 1:
-            raise NotSerialError(f"{', '.join(names)} are no series from the base to the platform")
-        order += following
-        left.remove(following[0])
-        link = _other(record.joints[following[0]], link)
-    if link != record.platform.link:
-        raise NotSerialError(f"{', '.join(names)} do not end at the platform")
-    return tuple(order)
-
-
-def _limb(record: MechanismRecord, names: tuple[str, ...]) -> SerialLimb:
-    frame, link = (np.eye(3), np.zeros(3)), record.base
+    ordered = _in_order(record, names, base, platform)
+    frame, link = (np.eye(3), np.zeros(3)), base
     motions: list[ElementaryMotion] = []
-    for name in names:
+    for name in ordered:
         joint = record.joints[name]
         forward = joint.parent == link
         parent = frame if forward else _parent_frame(joint, frame)
@@ -130,7 +97,22 @@ def _limb(record: MechanismRecord, names: tuple[str, ...]) -> SerialLimb:
         motions += steps if forward else [step.back for step in reversed(steps)]
         frame = child_frame(joint, parent, np.zeros(joint.type.freedoms)) if forward else parent
         link = _other(joint, link)
-    return SerialLimb(names, tuple(motions), frame)
+    return SerialLimb(ordered, tuple(motions), frame)
+
+
+def _in_order(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> tuple[str, ...]:
+    """Each joint on the link that the one before leads to."""
+    left, link, order = [*names], base, list[str]()
+    while left:
+        following = [name for name in left if link in (record.joints[name].parent, record.joints[name].child)]
+        if len(following) != 1:
+            raise NotSerialError(f"{', '.join(names)} are no series from {base} to {platform}")
+        order += following
+        left.remove(following[0])
+        link = _other(record.joints[following[0]], link)
+    if link != platform:
+        raise NotSerialError(f"{', '.join(names)} do not end at {platform}")
+    return tuple(order)
 
 
 def _motions(record: MechanismRecord, joint: Joint, parent: Frame) -> Iterator[ElementaryMotion]:

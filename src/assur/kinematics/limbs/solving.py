@@ -14,8 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
+from assur.kinematics.limbs.branched import Limb
 from assur.kinematics.limbs.concurrent import along, ball_values, concurrent_turns
-from assur.kinematics.limbs.point_closure import distance_closure, point_closure
+from assur.kinematics.limbs.point_closure import (
+    CLOSE,
+    MovingLimbError,
+    PointClosure,
+    distance_closure,
+    point_closure,
+)
 from assur.kinematics.limbs.serial import (
     ElementaryMotion,
     NotSerialError,
@@ -48,7 +55,7 @@ class LimbSolutions:
         roots: how many complex roots were looked at.
     """
 
-    limb: SerialLimb
+    limb: Limb
     indices: tuple[int, ...]
     values: FloatArray
     bent: FloatArray
@@ -63,40 +70,24 @@ def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = 
         MovingLimbError: it closes in infinitely many ways.
     """
     displaced = composed(platform, inverted(limb.zero))
+    if not limb.motions:
+        off = max(float(np.max(np.abs(displaced[0] - np.eye(3)))), float(np.linalg.norm(displaced[1])))
+        return LimbSolutions(limb, (), np.zeros((1, 0)), np.full(1, off), 1)
     balls = [k for k, motion in enumerate(limb.motions) if motion.kind == "ball"]
     if len(balls) == 2:
         rows, roots = _of_rod(limb.motions, balls[0], balls[1], displaced)
     else:
-        rows, roots = _about_point(limb.motions, _centre(limb), displaced)
-    columns = [index for motion in limb.motions for index in _indices(motion)]
-    order = np.argsort(columns)
-    values = np.array([values for values, _ in rows]).reshape(len(rows), len(columns))[:, order]
+        rows, roots = _about_any(limb, displaced)
+    columns = [index for motion in limb.motions for index in motion.indices]
+    values = np.array([values for values, _ in rows]).reshape(len(rows), len(columns))[:, np.argsort(columns)]
     bent = np.array([bent for _, bent in rows])
-    kept = _told_apart(limb.motions, values[:, np.argsort(order)], bent, driven)
+    kept = told_apart(limb, values, bent, driven)
     return LimbSolutions(limb, tuple(sorted(columns)), values[kept], bent[kept], roots)
 
 
-def still_point(limb: SerialLimb) -> FloatArray | None:
-    """The point (3,) that no motion of a limb moves, if there is one.
-
-    >>> from assur.kinematics.limbs.serial import serial_limbs
-    >>> from assur.model.registry import load_record
-    >>> still_point(serial_limbs(load_record("planar_3rrr"))[0])
-    """
-    kinds = [motion.kind for motion in limb.motions]
-    if "slide" in kinds or kinds == ["turn"]:
-        return None
-    centre = _centre(limb)
-    return centre.point if centre is not None and centre.end - centre.start == len(limb.motions) else None
-
-
-def _size(motions: Sequence[ElementaryMotion]) -> float:
+def size_of(motions: Sequence[ElementaryMotion]) -> float:
     """A length to which the points of a limb compare."""
     return float(np.max(np.ptp([motion.point for motion in motions], axis=0))) or 1.0
-
-
-def _indices(motion: ElementaryMotion) -> tuple[int, ...]:
-    return tuple(range(motion.index, motion.index + (3 if motion.kind == "ball" else 1)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,22 +99,22 @@ class _Centre:
     end: int
 
 
-def _centre(limb: SerialLimb) -> _Centre:
-    """That of the ball joint, else of the turns that leave the fewest other motions."""
+def _centres(limb: SerialLimb) -> list[_Centre]:
+    """That of the ball joint, else those of the turns that leave the fewest other motions."""
     motions = limb.motions
     balls = [k for k, motion in enumerate(motions) if motion.kind == "ball"]
     if len(balls) > 1:
         raise NotSerialError(f"{', '.join(limb.joints)}: more than two ball joints")
     centres = [_Centre(motions[k].point, k, k + 1) for k in balls] or [*_meetings(motions)]
-    best = min(centres, key=lambda centre: len(motions) - (centre.end - centre.start), default=None)
-    if best is None or len(motions) - (best.end - best.start) > OTHERS:
+    others = [len(motions) - (centre.end - centre.start) for centre in centres]
+    if min(others, default=OTHERS + 1) > OTHERS:
         raise NotSerialError(f"{', '.join(limb.joints)}: no point that all but three freedoms leave in place")
-    return best
+    return [centre for centre, count in zip(centres, others, strict=True) if count == min(others)]
 
 
 def _meetings(motions: Sequence[ElementaryMotion]) -> Iterator[_Centre]:
     """Successive turns whose axes meet in a point; a turn alone has all points of its axis, of which one is taken."""
-    size = _size(motions)
+    size = size_of(motions)
     turns = [k for k, motion in enumerate(motions) if motion.kind == "turn"]
     for start in turns:
         points = [motions[start].point]
@@ -152,12 +143,23 @@ def meeting(first: ElementaryMotion, second: ElementaryMotion) -> FloatArray:
 Rows = list[tuple[list[float], float]]
 
 
+def _about_any(limb: SerialLimb, displaced: Frame) -> tuple[Rows, int]:
+    """About the first of its points that is taken to its place in finitely many ways."""
+    *others, last = _centres(limb)
+    for centre in others:
+        try:
+            return _about_point(limb.motions, centre, displaced)
+        except MovingLimbError:
+            continue
+    return _about_point(limb.motions, last, displaced)
+
+
 def _about_point(motions: Sequence[ElementaryMotion], centre: _Centre, displaced: Frame) -> tuple[Rows, int]:
     """Values of all motions, in their order, and by how much roots were made real."""
     before, about, after = motions[: centre.start], motions[centre.start : centre.end], motions[centre.end :]
     others = _others(before, after, displaced)
     moved = displaced[0] @ centre.point + displaced[1]
-    closure = point_closure(others, moved, centre.point, _size([*motions, *others]))
+    closure = point_closure(others, moved, centre.point, size_of([*motions, *others]))
     rows: Rows = []
     for values, bent in zip(closure.values, closure.bent, strict=True):
         near, far = values[: len(before)][::-1], values[len(before) :][::-1]
@@ -195,14 +197,18 @@ def _left(
 
 
 def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displaced: Frame) -> tuple[Rows, int]:
-    """A limb with two ball joints and one other motion."""
+    """A limb with two ball joints and one other motion, or none: then the points are as far apart as they are."""
     before, middle, after = motions[:first], motions[first + 1 : second], motions[second + 1 :]
     start, end = motions[first], motions[second]
     others = [*before, *middle, *after]
-    if len(others) != 1 or others[0].kind == "ball":
-        raise NotSerialError("two ball joints, and not one motion beside them")
+    if len(others) > 1:
+        raise NotSerialError("two ball joints, and more than one motion beside them")
     far_end = displaced[0] @ end.point + displaced[1]
-    if middle:
+    if not others:
+        off = float(abs(np.linalg.norm(far_end - start.point) - np.linalg.norm(end.point - start.point)))
+        near_enough = int(off < CLOSE * size_of(motions))
+        closure = PointClosure(np.zeros((near_enough, 0)), np.full(near_enough, off / size_of(motions)), 1)
+    elif middle:
         closure = distance_closure(middle[0], end.point, start.point, float(np.linalg.norm(far_end - start.point)))
     else:
         length = float(np.linalg.norm(end.point - start.point))
@@ -212,25 +218,26 @@ def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displa
             else distance_closure(after[0].moved(*displaced).back, far_end, start.point, length)
         )
     rows: Rows = []
-    for (value,), bent in zip(closure.values, closure.bent, strict=True):
-        near, between, far = ([value] if part else [] for part in (before, middle, after))
+    for values, bent in zip(closure.values.tolist(), closure.bent, strict=True):
+        near, between, far = (values if part else [] for part in (before, middle, after))
         left = _left(before, near, displaced, after, far)
-        reached = applied(middle[0], np.asarray(value), end.point) if middle else end.point
+        reached = applied(middle[0], np.asarray(*between), end.point) if middle else end.point
         target = left[0] @ end.point + left[1]
         turned = along(reached - start.point, target - start.point)
         rest = turned.T @ left[0]
         if middle:
-            rest = displacement(middle[0], np.asarray(value))[0].T @ rest
+            rest = displacement(middle[0], np.asarray(*between))[0].T @ rest
         rows.append(([*near, *ball_values(start, turned), *between, *ball_values(end, rest), *far], bent))
     return rows, closure.roots
 
 
-def _told_apart(
-    motions: Sequence[ElementaryMotion], values: FloatArray, bent: FloatArray, driven: Collection[int]
-) -> list[int]:
-    """Rows that put points of the limb elsewhere, or have other driven joint values; of equal ones the most real."""
-    size = _size(motions)
-    places = np.array([[*_places(motions, row, driven, size)] for row in values])
+def told_apart(limb: SerialLimb, values: FloatArray, bent: FloatArray, driven: Collection[int]) -> list[int]:
+    """Rows of values (K, k), in the order of their indices, that put points of the limb elsewhere, or have other
+    `driven` joint values; of equal ones the most real.
+    """
+    size = size_of(limb.motions)
+    order = np.argsort(np.argsort([index for motion in limb.motions for index in motion.indices]))
+    places = np.array([[*_places(limb.motions, row[order], driven, size)] for row in values])
     kept: list[int] = []
     for k in np.argsort(bent, kind="stable"):
         if all(np.max(np.abs(places[k] - places[j])) > SAME for j in kept):
@@ -246,7 +253,7 @@ def _places(
     column = 0
     for motion in motions:
         yield from (frame[0] @ motion.point + frame[1]) / size
-        own = row[column : column + len(_indices(motion))]
+        own = row[column : column + len(motion.indices)]
         column += len(own)
         if motion.kind != "ball":
             frame = composed(frame, displacement(motion, own[0]))

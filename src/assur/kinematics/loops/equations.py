@@ -55,13 +55,13 @@ def roots_of_set(rows: ComplexArray, known: ComplexArray, groups: Sequence[Unkno
     size = len(groups)
     if len(straight) == size and size % 2 == 0:
         halves = [list(range(1 + half, len(columns) + 1, 2)) for half in (0, 1)]
-        splits = [_independent(without(linear, halves[1 - half])) for half in (0, 1)]
+        splits = [independent(without(linear, halves[1 - half])) for half in (0, 1)]
         if all(len(part) == size // 2 for part in splits):
             return _bilinear(
                 groups, known, columns, [part[:, [0, *own]] for part, own in zip(splits, halves, strict=True)]
             )
     count = sum(len(group.quadratic) for group in groups)
-    linear = _as_many(_independent(linear), sum(group.freedoms for group in groups))
+    linear = _as_many(independent(linear), sum(group.freedoms for group in groups))
     roots = _on_circles(groups, known, columns, linear) if count > MOST_QUADRATIC else None
     if roots is not None:
         return roots
@@ -129,13 +129,6 @@ def _powers(form: ComplexArray) -> ComplexArray:
     return found[tuple(slice(axis.min(), axis.max() + 1) for axis in used)]
 
 
-def _independent(rows: ComplexArray) -> ComplexArray:
-    """Rows orthonormal on the unknowns with the same span there; the constants, in column 0, come along."""
-    left, singular, _ = np.linalg.svd(rows[:, 1:], full_matrices=False)
-    rank = int(np.sum(singular > RANK))
-    return np.asarray((left[:, :rank].conj().T @ rows) / singular[:rank, None])
-
-
 def _as_many(rows: ComplexArray, count: int) -> ComplexArray:
     """So many equations that follow from more of them: no root is lost, and false ones do not close."""
     if len(rows) == count:
@@ -189,3 +182,10 @@ def without(rows: ComplexArray, columns: Sequence[int]) -> ComplexArray:
         return rows
     left, singular, _ = np.linalg.svd(rows[:, list(columns)])
     return np.asarray(left[:, int(np.sum(singular > RANK)) :].conj().T @ rows)
+
+
+def independent(rows: ComplexArray) -> ComplexArray:
+    """Rows orthonormal on the unknowns with the same span there; the constants, in column 0, come along."""
+    left, singular, _ = np.linalg.svd(rows[:, 1:], full_matrices=False)
+    rank = int(np.sum(singular > RANK))
+    return np.asarray((left[:, :rank].conj().T @ rows) / singular[:rank, None])

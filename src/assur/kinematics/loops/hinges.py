@@ -17,13 +17,11 @@ from assur.joint_graph.frames import frames
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import Step
 from assur.kinematics.home import home_values
+from assur.kinematics.loops.parallelograms import PARALLEL, parallelograms
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
-
-
-PARALLEL = 1e-9
 
 
 class NotCirclesError(Exception):
@@ -95,8 +93,9 @@ def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) 
 
     Nor do the rods of a P(2US), if its universal joints are parallel; one may have rolled over, half a turn.
     """
-    placed = frames(record, home_values(record)) if record.generalised else {}
-    for group in record.generalised.values():
+    groups = parallelograms(record)
+    placed = frames(record, home_values(record)) if groups else {}
+    for group in groups.values():
         if group.name not in parallel:
             continue
         between = placed[group.parent][0].T @ placed[group.child][0]
@@ -132,7 +131,7 @@ def _rods_alike(
 def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> dict[str, tuple[FloatArray, int]]:
     """Rods between two ball joints: direction in their frame, and a number that the rods of a kept P(4S) share."""
     together = {}
-    for group in record.generalised.values():
+    for group in parallelograms(record).values():
         if group.kind == "P(4S)" and group.name in parallel:
             together[_rods(record, group)[1]] = _rods(record, group)[0]
     lines: dict[str, FloatArray] = {}

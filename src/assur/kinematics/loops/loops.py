@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
-from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.points import point
 from assur.joint_graph.turns import turn_relations
 from assur.kinematics import border
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
+from assur.kinematics.limbs.solving import LimbSolutions
+from assur.kinematics.loops.alike import alike_merged
 from assur.kinematics.loops.circles import System, joint_values, system
 from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError, middle
 from assur.kinematics.loops.orientations import Turning, turnings
+from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.modes import Problem
-from assur.kinematics.search import SAME, distinct, search
+from assur.kinematics.search import distinct, search
 from assur.kinematics.turns import told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
@@ -30,6 +32,8 @@ from assur.work import stage
 FloatArray = NDArray[np.float64]
 
 
+UPRIGHT = 1e-9
+"""Cosine of theta below which phi and psi turn about one axis."""
 OPEN = "the pose leaves the platform's tilt open"
 
 
@@ -42,12 +46,16 @@ class LoopSolutions:
         complete: whether these are all assemblies, as far as `right` says.
         right: by what right they are all, or why they are not known to be; one sentence.
         searched: roots that were looked at, complex ones too.
+        kept: names of the parallelograms that are taken to stay such.
+        limbs: where any way of each limb goes with any of the others, these (`LimbSolutions`).
     """
 
     joints: FloatArray
     complete: bool
     right: str
     searched: int
+    kept: tuple[str, ...] = ()
+    limbs: tuple[LimbSolutions, ...] = ()
 
 
 @stage("loops solved in turn")
@@ -64,7 +72,7 @@ def solve_by_loops(
         record: the mechanism.
         inputs: printed, in lengths and rad; the direct problem.
         pose: the inverse problem.
-        crossed: whether P(4R) parallelograms may cross over; otherwise they stay parallelograms.
+        crossed: whether parallelograms may cross over; otherwise they stay such.
 
     Example: the planar five-bar.
 
@@ -85,7 +93,7 @@ def solve_by_loops(
         raise UsageError(f"solve_by_loops: one problem at a time, not a batch of shape {given.shape[:-1]}")
     question = PositionQuestion(record, "direct" if inputs is not None else "inverse", given)
     if not crossed:
-        return _at_once(question, frozenset(record.generalised))
+        return _at_once(question, frozenset(parallelograms(record)))
     return _with_crossed(question)
 
 
@@ -114,31 +122,37 @@ class PositionQuestion:
         named = zip(self.record.platform.pose, self.given, strict=True)
         return {name: float(value) for name, value in named if name in LENGTHS}
 
-    @property
-    def orientation(self) -> FloatArray | None:
-        """Of the platform (3, 3), where the pose gives one."""
+    @cached_property
+    def orientations(self) -> list[FloatArray] | list[None]:
+        """Of the platform (3, 3), all in which the pose lets it stand; None where it gives no angle."""
         if self.problem == "direct":
-            return None
+            return [None]
         named = dict(zip(self.record.platform.pose, self.given, strict=True))
         if not named.keys() & {*ANGLES, *QUATERNION}:
-            return None
+            return [None]
         if has_quaternion(self.record.platform.pose):
-            return rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))
-        return rotations.from_angles(*(np.asarray(named.get(name, 0.0)) for name in ANGLES))
+            return [rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))]
+        if named.keys().isdisjoint(ANGLES[1:]) and self._upright:
+            first = [named["phi"] - rotations.to_angles(way)[0] for way in self._upright]
+            upright = zip(first, self._upright, strict=True)
+            return [rotations.from_angles(phi, np.zeros(()), np.zeros(())) @ way for phi, way in upright]
+        return [rotations.from_angles(*(np.asarray(named.get(name, 0.0)) for name in ANGLES))]
+
+    @cached_property
+    def _upright(self) -> list[FloatArray]:
+        """C of each way in which the joints let the platform turn, Rot(z, psi) C; none where it turns otherwise too."""
+        try:
+            ways = turnings(self.record, {}, None, parallel=tuple(parallelograms(self.record)))
+        except NotCirclesError:
+            return []
+        platforms = [way[self.record.platform.link] for way in ways]
+        return [one.rotation for one in platforms] if all(map(_about_vertical, platforms)) else []
 
     @property
     def tilt_open(self) -> bool:
-        """Whether the pose leaves angles of the platform open, which are taken as zero, and the joints do not."""
+        """Whether the pose leaves angles of the platform open, which are taken as zero, and so do the joints."""
         open_angles = 0 < len({*ANGLES} & {*self.record.platform.pose}) < len(ANGLES)
-        if self.problem == "direct" or not open_angles:
-            return False
-        try:
-            free = turnings(self.record, {}, None, parallel=tuple(self.record.generalised))[self.record.platform.link]
-        except NotCirclesError:
-            return True
-        level = np.array([0.0, 0.0, 1.0])
-        turns = free.axis is not None and free.hinge is None and np.allclose(free.axis, level, rtol=0, atol=1e-9)
-        return not (turns and np.allclose(free.rotation @ level, level, rtol=0, atol=1e-9))
+        return self.problem == "inverse" and open_angles and not self._upright
 
     def closed(self, starts: FloatArray) -> FloatArray:
         """The starts (N, n) that are assemblies, each once, closed to rounding."""
@@ -157,22 +171,53 @@ class PositionQuestion:
         return turned[same][distinct(self.record, turned[same])]
 
 
+def _about_vertical(turning: Turning) -> bool:
+    """Whether a link turns about the vertical alone, and its angle phi is one."""
+    upright = np.array([0.0, 0.0, 1.0])
+    turns = turning.axis is not None and turning.hinge is None and np.allclose(turning.axis, upright, rtol=0, atol=1e-9)
+    return bool(turns and np.linalg.norm(turning.rotation[:2, 0]) > UPRIGHT)
+
+
 def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSolutions:
-    """The assemblies in which these generalised joints stay parallelograms."""
-    record, locked = question.record, question.locked
-    if record.generalised and parallel & {*crossed_parallelograms(record, home_values(record))}:
+    """The assemblies in which these parallelograms stay such."""
+    record = question.record
+    kept = tuple(name for name in parallelograms(record) if name in parallel)
+    note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
+    if parallel & {*crossed_parallelograms(record, home_values(record))}:
         return _nothing(record, False, "not proved, since a parallelogram is crossed at home")
-    try:
-        turning = turnings(record, locked, question.orientation, parallel=parallel)
-        equations = system(record, turning, locked, question.place)
-    except NoAssemblyError as error:
+    ways, error = [], None
+    for orientation in question.orientations:
+        try:
+            ways += turnings(record, question.locked, orientation, parallel=parallel)
+        except NoAssemblyError as contradiction:
+            error = contradiction
+        except NotCirclesError as other:
+            return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {other}")
+    if not ways:
         if question.tilt_open:
             return _nothing(record, False, f"not proved, since {OPEN}: with those taken as zero {error}")
-        return _nothing(record, True, f"there is no assembly: {error}")
+        return replace(_nothing(record, True, f"there is no assembly: {error}{note}"), kept=kept)
+    parts = [_standing(question, way) for way in ways]
+    right = " or ".join(dict.fromkeys(part.right for part in parts))
+    if len(parts) > 1:
+        right += f", in each of {len(parts)} ways in which links that do not turn can stand"
+    right += note
+    if len(turn_relations(record)):
+        right += "; screws have the turns of home"
+    complete = all(part.complete for part in parts)
+    joints = question.once(np.concatenate([part.joints for part in parts]))
+    return LoopSolutions(joints, complete, right, sum(part.searched for part in parts), kept)
+
+
+def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> LoopSolutions:
+    """The assemblies in which links stand in one way."""
+    record, locked = question.record, question.locked
+    try:
+        equations = system(record, turning, locked, question.place)
     except NotCirclesError as error:
         return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {error}")
     try:
-        found = solve(equations)
+        equations, found = _solved(equations)
     except NotCirclesError as error:
         return _nothing(record, False, f"not proved: {error}")
     except CurveError as error:
@@ -183,11 +228,7 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
     starts = np.array([joint_values(equations, row, locked) for row in found.unknowns])
     starts = starts.reshape(-1, len(record.coordinates))
     joints = question.closed(starts)
-    kept = [name for name in record.generalised if name in parallel]
-    note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
-    if len(turn_relations(record)):
-        note += "; screws have the turns of home"
-    right = _right(equations, found) + note
+    right = _right(equations, found)
     if question.tilt_open:
         return LoopSolutions(joints, False, f"not proved, since {OPEN}: {right}", found.looked)
     sure = np.repeat(found.bent <= DOUBTFUL, len(starts) // max(len(found.bent), 1))
@@ -196,10 +237,23 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
     return LoopSolutions(joints, True, right, found.looked)
 
 
+def _solved(equations: System) -> tuple[System, Solved]:
+    """Solved as they are, else with circles that are one taken as one."""
+    try:
+        return equations, solve(equations)
+    except CurveError:
+        merged = alike_merged(equations)
+        try:
+            return merged, solve(merged)
+        except NotCirclesError:
+            pass
+        raise
+
+
 def _with_crossed(question: PositionQuestion) -> LoopSolutions:
     """Crossed assemblies too: at once where that can be, else with some parallelograms kept, and by a search."""
     record = question.record
-    names = tuple(record.generalised)
+    names = tuple(parallelograms(record))
     whole = _at_once(question, frozenset())
     if whole.complete or not names:
         return whole
@@ -214,23 +268,6 @@ def _with_crossed(question: PositionQuestion) -> LoopSolutions:
             f"; those in which nothing is crossed, or {alone} alone, are all, since their loops were solved in turn"
         )
     return LoopSolutions(joints, False, right, more.starts + sum(part.searched for part in parts))
-
-
-def crossed_parallelograms(record: MechanismRecord, joints: FloatArray) -> tuple[str, ...]:
-    """Names of the generalised joints whose four joints are no parallelogram at joint values (n,).
-
-    >>> from assur.kinematics.home import home_values
-    >>> from assur.model.registry import load_record
-    >>> record = load_record("zeng2019")
-    >>> crossed_parallelograms(record, home_values(record))
-    ()
-    """
-    found = []
-    for name, group in record.generalised.items():
-        first, second, third, fourth = (point(record, joint, joints) for joint in group.joints)
-        if np.linalg.norm(first - second + third - fourth) > SAME * characteristic_length(record):
-            found.append(name)
-    return tuple(found)
 
 
 def _nothing(record: MechanismRecord, complete: bool, right: str) -> LoopSolutions:

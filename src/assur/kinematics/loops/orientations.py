@@ -3,9 +3,10 @@
 Joints that cannot turn join links to bodies. A body that hangs on another by axes of one direction u has, against it,
 the orientation Rot(u, psi) C. If it hangs on it by axes of u and, by other joints, by axes of v as well, it cannot
 turn: Rot(u, a) C1 = Rot(v, b) C2 has one solution at most (the rule r1(u) ∩ r1(v) = r0 of the theory). The two are
-one body then, and the argument goes round again. A body all of whose joints are on one that turns about u, with axes
-of one direction v across u, is a rod on a hinge: Rot(u, psi) Rot(v, phi) C, as the rods of a parallelogram that a limb
-turns.
+one body then, and the argument goes round again. Three bodies, each of which turns against each other about one
+direction, are a spherical triangle and do not turn either, but can stand in two ways. A body all of whose joints are on
+one that turns about u, with axes of one direction v across u, is a rod on a hinge: Rot(u, psi) Rot(v, phi) C, as the
+rods of a parallelogram that a limb turns.
 """
 
 from __future__ import annotations
@@ -54,31 +55,49 @@ class Turning:
 
 
 def turnings(
-    record: MechanismRecord, locked: Mapping[int, float], platform: FloatArray | None, *, parallel: Collection[str]
-) -> dict[str, Turning]:
-    """Orientations of all links, and of the crosses of universal joints.
+    record: MechanismRecord,
+    locked: Mapping[int, float],
+    platform: FloatArray | None,
+    *,
+    parallel: Collection[str],
+    alike: Sequence[Stiff] = (),
+) -> list[dict[str, Turning]]:
+    """Orientations of all links, and of the crosses of universal joints, in each way in which they can stand.
 
     Args:
         record: the mechanism.
         locked: index in the joint values -> value.
         platform: (3, 3) its orientation where it is held.
-        parallel: generalised joints that stay parallelograms; others are no more than their four joints.
+        parallel: parallelograms that stay such; others are no more than their four joints.
+        alike: links that are known not to turn against each other.
 
     Errors:
         NotCirclesError: a link that turns otherwise. NoAssemblyError: orientations that contradict each other.
 
     >>> from assur.model.registry import load_record
-    >>> found = turnings(load_record("zeng2019"), {}, None, parallel=("Pa1", "Pa2"))
+    >>> (found,) = turnings(load_record("zeng2019"), {}, None, parallel=("Pa1", "Pa2"))
     >>> [link for link, group in found.items() if group.circle is not None]
     ['link9', 'link10', 'link12', 'link4a', 'link4b', 'link7a', 'link7b']
     """
-    joints = [*turns_of_joints(record, locked), *turns_of_parallelograms(record, parallel)]
+    joints = [*turns_of_joints(record, locked), *turns_of_parallelograms(record, parallel), *alike]
     if platform is not None:
         joints.append(Stiff(record.base, record.platform.link, platform))
+    return [_turnings(record, parallel, way) for way in _stiffened(record.base, joints)]
+
+
+def _stiffened(base: str, joints: Sequence[Stiff | HingeTurn]) -> list[list[Stiff | HingeTurn]]:
+    """The joints, and what follows from them about bodies that do not turn, in each way in which these can stand."""
+    known = list(joints)
+    while more := _held_together(_free(known, _bodies(base, known))):
+        known.append(more)
+    ways = _triangle(_free(known, _bodies(base, known)))
+    return [known] if ways is None else [way for more in ways for way in _stiffened(base, [*known, *more])]
+
+
+def _turnings(
+    record: MechanismRecord, parallel: Collection[str], joints: Sequence[Stiff | HingeTurn]
+) -> dict[str, Turning]:
     bodies = _bodies(record.base, joints)
-    while more := _held_together(_free(joints, bodies)):
-        joints.append(more)
-        bodies = _bodies(record.base, joints)
     free = _free(joints, bodies)
     root, inside_root = bodies[record.base]
     circling = {body: ways[0] for body, ways in _ways(free, root, inside_root.T).items()}
@@ -189,9 +208,57 @@ def _held_together(free: list[HingeTurn]) -> Stiff | None:
                 between = first @ second.T @ v
                 if abs(u @ between - u @ v) > EXACT:
                     raise NoAssemblyError(f"{body} cannot have the orientation that its joints ask for")
-                angle = np.arctan2(u @ np.cross(between, v), between @ v - (u @ between) * (u @ v))
-                return Stiff(root, body, rotations.about_axis(u, np.asarray(angle)) @ first)
+                return Stiff(root, body, rotations.about_axis(u, _angle(u, between, v)) @ first)
     return None
+
+
+def _triangle(free: list[HingeTurn]) -> list[list[Stiff]] | None:
+    """Three bodies that turn against each other about one direction each, u, v and w: a spherical triangle.
+
+    Two of its angles are given, so that w stands in one of two ways against the first body, mirrored at the plane of u
+    and v, and none of the three turns: as the bars of an articulated platform, each held against turning about all but
+    one direction.
+    """
+    for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
+        ways = _ways(free, root, np.eye(3))
+        for first in ways:
+            between = _ways(free, first, np.eye(3))
+            for second in sorted(between.keys() & ways.keys()):
+                (u, first_stands), (v, second_stands), (w, after) = ways[first][0], ways[second][0], between[second][0]
+                own, other = first_stands @ w, second_stands @ after.T @ w  # w at psi = 0, carried by either body
+                if second > first and not (_along(u, v) or _along(u, own) or _along(v, other)):
+                    return _stands(root, (first, u, first_stands, own), (second, v, second_stands, other))
+    return None
+
+
+Carried = tuple[str, FloatArray, FloatArray, FloatArray]
+
+
+def _stands(root: str, first: Carried, second: Carried) -> list[list[Stiff]]:
+    """How two bodies can stand in the root, each Rot(u, psi) C with w as it carries it at psi = 0; w is one of both."""
+    (near, u, here, own), (far, v, there, other) = first, second
+    across = np.cross(u, v)
+    along = np.linalg.solve(np.array([[1.0, u @ v], [u @ v, 1.0]]), [u @ own, v @ other])
+    rest = float(1.0 - along @ [u @ own, v @ other])
+    if rest < -EXACT:
+        raise NoAssemblyError(f"{near} and {far} cannot have the orientations that their joints ask for")
+    side = np.sqrt(max(rest, 0.0)) / np.linalg.norm(across)
+    senses = (1.0, -1.0) if rest > EXACT else (0.0,)
+    found = []
+    for sense in senses:
+        axis = along[0] * u + along[1] * v + sense * side * across
+        found.append(
+            [
+                Stiff(root, body, rotations.about_axis(about, _angle(about, start, axis)) @ turned)
+                for body, about, start, turned in ((near, u, own, here), (far, v, other, there))
+            ]
+        )
+    return found
+
+
+def _angle(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """The angle of the turn about an axis that takes one direction to another."""
+    return np.asarray(np.arctan2(axis @ np.cross(start, end), start @ end - (axis @ start) * (axis @ end)))
 
 
 def _hinged(free: list[HingeTurn], circling: Mapping[str, Way]) -> dict[str, tuple[str, FloatArray, FloatArray]]:

@@ -69,7 +69,7 @@ def solve(system: System) -> Solved:
     >>> from assur.kinematics.loops.orientations import turnings
     >>> from assur.model.registry import load_record
     >>> record, locked = load_record("fivebar"), {0: 2.2, 1: 0.9}
-    >>> found = solve(system(record, turnings(record, locked, None, parallel=()), locked, {}))
+    >>> found = solve(system(record, turnings(record, locked, None, parallel=())[0], locked, {}))
     >>> found.unknowns.shape, found.sets
     ((2, 5), (Set(groups=(0, 1), roots=2),))
     """

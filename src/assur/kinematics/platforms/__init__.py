@@ -1,1 +1,1 @@
-"""Direct problems that are known systems: what limbs leave of the platform is said by points and distances."""
+"""What limbs hold the platform to: quadrics in soma coordinates, and all poses that lie on them."""

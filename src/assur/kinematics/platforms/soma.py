@@ -1,93 +1,111 @@
-"""Poses as soma (Study) coordinates: a distance between a point of the base and one of the platform is quadratic.
+"""Poses as soma (Study) coordinates, in which what limbs hold the platform to is quadratic.
 
-R turns by the quaternion e, and p is the vector of g e* with a second quaternion g = p e. Times N(e) = e e*,
+R turns by the quaternion e, and p is the vector of g e* with a second quaternion g = p e: eight homogeneous coordinates
+(e, g) on Study's quadric e . g = 0, no pose where N(e) = e e* is zero. Times N(e), these are quadrics:
 
-    |p + R b - a|^2 N(e) = N(g) + 2 b . vec(e* g) - 2 a . vec(g e*) + (a^2 + b^2) N(e) - 2 a . N(e) R b,    e . g = 0
+    |p|^2 = N(g),    p = vec(g e*),    R' p = vec(e* g),    R,    1 = N(e)
 
-(C. W. Wampler, Forward displacement analysis of general six-in-parallel SPS (Stewart) platform manipulators using soma
-coordinates, Mech. Mach. Theory 31, 1996).
+(E. Study 1903; C. W. Wampler, Mech. Mach. Theory 31, 1996).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from functools import cache
+from itertools import combinations_with_replacement
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.rotations import from_quaternion
-from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract
+from assur.joint_graph.frames import Frame
+from assur.numerics.rotations import from_quaternion, to_quaternion
 
 FloatArray = NDArray[np.float64]
+Array = TypeVar("Array", FloatArray, NDArray[np.complex128])
+
+SIZE = 8
+PAIRS = np.array([*combinations_with_replacement(range(SIZE), 2)])
+"""The products (36, 2) of two coordinates: a quadric is given by its coefficients (36,) of these."""
+STUDY = np.array([(second - first == SIZE // 2) / 2 for first, second in PAIRS])
+"""Study's quadric, of length 1."""
 
 
-def equations(points: Sequence[Vector], others: Sequence[Vector], distances: Sequence[Any], soma: Any) -> list[Any]:
-    """Study's quadric, and for each distance an equation: homogeneous of degree 2 in the eight unknowns.
+def soma_of(frames: Frame) -> FloatArray:
+    """Coordinates (N, 8), of length 1, of rotations (N, 3, 3) and places (N, 3).
 
-    Args:
-        points: of the base.
-        others: of the platform, in its frame.
-        distances: between them.
-        soma: the unknowns e, g, of any number type.
-
-    >>> pose = soma_of((1, 0, 0, 0), (1, 2, 2))
-    >>> equations([(0, 0, 0)], [(0, 0, 0)], [3], pose)
-    [0, 0]
+    >>> (soma_of((np.eye(3)[None], np.array([[0.0, 2.0, 2.0]]))).round(6) + 0.0).tolist()
+    [[0.333333, 0.0, 0.0, 0.0, 0.0, 0.0, 0.666667, 0.666667]]
     """
-    e, g = tuple(soma[:4]), tuple(soma[4:])
-    straight = subtract(scaled(g[1:], e[0]), scaled(e[1:], g[0]))
-    turned = cross(g[1:], e[1:])
-    on_base, on_platform = subtract(straight, turned), add(straight, turned)  # vec(g e*), vec(e* g)
-    norm, square, rotation = _norm(e), _norm(g), _rotation(*e)
-    rows = [
-        square
-        + 2 * dot(b, on_platform)
-        - 2 * dot(a, on_base)
-        + (dot(a, a) + dot(b, b) - distance * distance) * norm
-        - 2 * dot(a, apply(rotation, b))
-        for a, b, distance in zip(points, others, distances, strict=True)
-    ]
-    return [e[0] * g[0] + dot(e[1:], g[1:]), *rows]
+    e, p = to_quaternion(frames[0]), frames[1]
+    w, v = e[:, :1], e[:, 1:]
+    soma = np.concatenate([e, -np.sum(p * v, axis=1, keepdims=True), w * p + np.cross(p, v)], axis=1)
+    return np.asarray(soma / np.linalg.norm(soma, axis=1, keepdims=True))
 
 
-def soma_of(quaternion: Sequence[Any], place: Sequence[Any]) -> tuple[Any, ...]:
-    """The unknowns e and g of a pose.
+def frames_of(soma: FloatArray) -> Frame:
+    """Rotations (N, 3, 3) and places (N, 3) of coordinates (N, 8) with N(e) not zero.
 
-    >>> soma_of((1, 0, 0, 0), (1, 2, 3))
-    (1, 0, 0, 0, 0, 1, 2, 3)
-    """
-    (w, *vector), p = quaternion, (place[0], place[1], place[2])
-    v = (vector[0], vector[1], vector[2])
-    return (w, *v, -dot(p, v), *add(scaled(p, w), cross(p, v)))
-
-
-def poses_of(soma: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Orientations (N, 3, 3) and places (N, 3) of soma (N, 8) with N(e) not zero.
-
-    >>> poses_of(np.array([[2.0, 0, 0, 0, 0, 2, 4, 6]]))[1].tolist()
+    >>> frames_of(np.array([[2.0, 0, 0, 0, 0, 2, 4, 6]]))[1].tolist()
     [[1.0, 2.0, 3.0]]
     """
-    e, g = soma[:, :4], soma[:, 4:]
-    norm = np.sum(e**2, axis=1)
-    place = e[:, :1] * g[:, 1:] - g[:, :1] * e[:, 1:] - np.cross(g[:, 1:], e[:, 1:])
-    return from_quaternion(e / np.sqrt(norm)[:, None]), place / norm[:, None]
+    norm = norm_of(soma)[:, None]
+    return from_quaternion(soma[:, :4] / np.sqrt(norm)), _straight(soma)[0] / norm
 
 
-def norm_of(soma: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """N(e) of soma (N, 8): no pose belongs to one where it is zero."""
-    return np.asarray(np.sum(soma[:, :4] ** 2, axis=1))
+def composed_soma(first: Array, second: Array) -> Array:
+    """Coordinates (N, 8) of displacements one after another, the second first; complex ones too.
 
-
-def _norm(quaternion: Sequence[Any]) -> Any:
-    w, x, y, z = quaternion
-    return w * w + x * x + y * y + z * z
-
-
-def _rotation(w: Any, x: Any, y: Any, z: Any) -> Any:
-    """N(e) R: the rotation of a quaternion of any length, homogeneous."""
-    return (
-        (w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z),
+    >>> shift = np.array([[1.0, 0, 0, 0, 0, 1, 2, 3]])
+    >>> frames_of(composed_soma(shift, shift))[1].tolist()
+    [[2.0, 4.0, 6.0]]
+    """
+    return np.concatenate(
+        [
+            _product(first[:, :4], second[:, :4]),
+            _product(first[:, :4], second[:, 4:]) + _product(first[:, 4:], second[:, :4]),
+        ],
+        axis=1,
     )
+
+
+def norm_of(soma: Array) -> Array:
+    """N(e) of coordinates (N, 8), without the conjugate of complex ones."""
+    total: Array = np.sum(soma[:, :4] ** 2, axis=1)
+    return total
+
+
+def products(soma: Array) -> Array:
+    """Values (N, 36) of `PAIRS`."""
+    values: Array = soma[:, PAIRS[:, 0]] * soma[:, PAIRS[:, 1]]
+    return values
+
+
+@cache
+def spheres() -> FloatArray:
+    """The quadrics (17, 36) of |p|^2, p, R' p, R and 1: sums of them say spheres, planes and angles.
+
+    >>> soma = soma_of((np.eye(3)[None], np.array([[0.0, 2.0, 2.0]])))
+    >>> (products(soma) @ spheres().T / norm_of(soma)).round(9).tolist()[0][:7]
+    [8.0, 0.0, 2.0, 2.0, 0.0, 2.0, 2.0]
+    """
+    soma = np.random.default_rng(0).normal(size=(2 * len(PAIRS), SIZE))
+    on_base, on_platform = _straight(soma)
+    norm = norm_of(soma)[:, None]
+    rotation = norm[..., None] * from_quaternion(soma[:, :4] / np.sqrt(norm))
+    square = np.sum(soma[:, 4:] ** 2, axis=1, keepdims=True)
+    values = np.concatenate([square, on_base, on_platform, rotation.reshape(-1, 9), norm], axis=1)
+    return np.asarray(np.rint(np.linalg.lstsq(products(soma), values, rcond=None)[0].T))  # all are whole
+
+
+def _product(first: Array, second: Array) -> Array:
+    """Of quaternions (N, 4)."""
+    a, b = first[:, 1:], second[:, 1:]
+    scalar = first[:, :1] * second[:, :1] - np.sum(a * b, axis=1, keepdims=True)
+    return np.concatenate([scalar, first[:, :1] * b + second[:, :1] * a + np.cross(a, b)], axis=1)
+
+
+def _straight(soma: FloatArray) -> Frame:
+    """vec(g e*) and vec(e* g), each (N, 3)."""
+    e, g = soma[:, :4], soma[:, 4:]
+    even, odd = e[:, :1] * g[:, 1:] - g[:, :1] * e[:, 1:], np.cross(g[:, 1:], e[:, 1:])
+    return even - odd, even + odd

@@ -20,12 +20,12 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import Named, checked_joints
 from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.pose import turning_matrix
+from assur.kinematics.rates.architecture import usual_ranks
 from assur.kinematics.rates.motions import (
     SINGULAR,
     InstantaneousMotion,
     IntArray,
     Ranks,
-    general,
     general_share,
     input_units,
     motions,
@@ -127,7 +127,7 @@ def instantaneous(record: MechanismRecord, joints: Named) -> Instant:
     values = checked_joints(record, joints)
     length = characteristic_length(record)
     motion = motions(record, values)
-    usual = general(record)
+    usual = usual_ranks(record)
     closed = closure_error(record, values) <= CLOSED * length
     count_x = motion.pose.shape[-2]
     rows = _complement(motion.related_left, motion.ranks.related, int(usual.related))  # (..., r, k + F)

@@ -13,6 +13,9 @@ from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import Limit, limits
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.architecture import self_motion_dimension
+from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic, unwrapped
 from assur.kinematics.validation.claims import Claims, axis_name, claims
 from assur.kinematics.validation.freedoms import freedom_problems, pose_problems
@@ -84,14 +87,16 @@ def check(record: MechanismRecord) -> None:
 
 def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
     """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
-    against the others, a home of many turns, one from which the loops close only far off, a workspace box without home
-    in it.
+    against the others, a home of many turns, one that is singular, one from which the loops close only far off, a
+    workspace box without home in it.
 
     >>> from assur.model.registry import load_record
     >>> doubts(load_record("zeng2019"))
     ()
     """
-    return _ordered([*_size(record), *_tiny(record), *_turns(record), *_away(record), *_box(record)])
+    return _ordered(
+        [*_size(record), *_tiny(record), *_turns(record), *_away(record), *_box(record), *_singular(record)]
+    )
 
 
 def _size(record: MechanismRecord) -> list[Problem]:
@@ -166,6 +171,16 @@ def _box(record: MechanismRecord) -> list[Problem]:
             text, hint = f"home has {name} = {own}, outside {least} to {most}", "look for the workspace about home"
             found.append(problem(record, ("workspace", "box", name), text, "it is unusual, but may be", hint))
     return found
+
+
+def _singular(record: MechanismRecord) -> list[Problem]:
+    """A home that is singular where the mechanism in general is not."""
+    status = Status(int(classify_at(record, home_values(record))))
+    if status <= Status.near_singular or self_motion_dimension(record):
+        return []
+    hint = "paths from home that hold the inputs, or the pose, may not begin there: is there a regular one nearby?"
+    path = table_place(record, "home")
+    return [problem(record, path, f"home is singular: {status.name}", "it is unusual, but may be", hint)]
 
 
 def _orientation(record: MechanismRecord, claims: Claims) -> list[Problem]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from assur.errors import Problem
 from assur.kinematics.home import home_values
+from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.validation.axes import axes_hint
 from assur.kinematics.validation.claims import Claims
 from assur.model.file.key_path import KeyPath
@@ -36,6 +37,8 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
     if driven < moving:
         hint = f"{drive}; drive {'one' if moving - driven == 1 else moving - driven} of them"
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
+    if self_motion_dimension(record):
+        return []
     found = f"inputs ({names}) that depend on one another: {int(claims.general.inputs)} of {driven} are independent"
     hint = f"{drive}; drive one of them instead of {_one_of(claims.spare_inputs)}"
     return [problem(record, path, found, "inputs that determine the mechanism", hint)]

@@ -22,12 +22,17 @@ class ExactAnswer:
 
 @dataclass(frozen=True)
 class SoundFacts:
-    """What a sound file describes; `unproved` are margins of a closed form that were held at places only."""
+    """What a sound file describes.
+
+    `architecture` says so where the mechanism is architecturally singular; `unproved` are margins of a closed form that
+    were held at places only.
+    """
 
     links: int
     joints: int
     freedoms: int
     internal_freedoms: int
+    architecture: str
     closed_form: bool
     closed_form_checked: bool
     closed_form_not_run: bool

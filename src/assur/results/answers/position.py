@@ -166,10 +166,12 @@ class PositionAnswer(SolvedProblem):
     """What is said of both problems.
 
     `signs` are those of a mode, in order, each with what holds where it is +. Where several solutions share them, a
-    letter follows, which is given at every problem anew.
+    letter follows, which is given at every problem anew. `architecture` says so where the mechanism is architecturally
+    singular: solutions of the direct problem are then single points of self-motions.
     """
 
     status: str
+    architecture: str
     doubles: tuple[DoubleSolution, ...]
     home_by: str
     signs: Mapping[str, str]
@@ -185,7 +187,19 @@ class DirectAnswer(GivenInputs, PositionAnswer):
 
 
 @dataclass(frozen=True)
+class LimbWays:
+    """All ways in which a limb closes at a pose: the inputs of each, by name; a way may have none."""
+
+    joints: tuple[str, ...]
+    ways: tuple[Mapping[str, float], ...]
+
+
+@dataclass(frozen=True)
 class InverseAnswer(GivenPose, PositionAnswer):
-    """All inputs at a given pose."""
+    """All inputs at a given pose.
+
+    Where `limbs` are listed, the solutions are all choices of one way each.
+    """
 
     solutions: tuple[InputsSolution, ...]
+    limbs: tuple[LimbWays, ...]

@@ -1,0 +1,118 @@
+"""The inverse problem as a product: each limb closes alone, and any choice of one way a limb is an assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from itertools import product
+from math import prod
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.frames import Frame
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.limbs.branched import Limb, limbs_of
+from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
+from assur.kinematics.limbs.serial import NotSerialError
+from assur.kinematics.limbs.solving import LimbSolutions
+from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
+from assur.kinematics.platforms.conditions import (
+    UncertainConditionsError,
+    conditions_at,
+    drawn_rotations,
+    joined,
+)
+from assur.kinematics.platforms.limbs import closed_limb, limb_conditions
+from assur.kinematics.platforms.poses import Poses, poses_under
+from assur.kinematics.pose import error_of
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+MOST = 4096
+"""Assemblies that are listed at most."""
+AS_GIVEN = 1e-5
+"""By how much a pose may miss what is given, in characteristic lengths and rad, before loops are closed."""
+
+
+def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions | None:
+    """All assemblies at a pose (m,), limb by limb; None where the pose or the limbs are not of that kind.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("gough_stewart")
+    >>> solutions = inverse_by_limbs(record, np.array([0.0, 10.0, 300.0, 1.0, 0.0, 0.0, 0.0]))
+    >>> len(solutions.joints), solutions.complete
+    (64, True)
+    """
+    question = PositionQuestion(record, "inverse", pose)
+    size = characteristic_length(record)
+    try:
+        series = limbs_of(record)
+        given = conditions_at(partial(_drawn, record, pose, size), size)
+        conditions = joined([given, *(limb_conditions(limb, size) for limb in series)])
+        poses = poses_under(conditions, size)
+        if poses is None:
+            return None
+        frames = [frame for frame in poses.frames if _as_given(record, pose, frame, size)]
+        sets = [[closed_limb(limb, frame, size, record.input_indices) for limb in series] for frame in frames]
+    except (NotSerialError, MovingLimbError, UncertainConditionsError):
+        return None
+    if sum(prod(len(own.values) for own in limbs) for limbs in sets) > MOST:
+        return None
+    right = _right(poses, len(frames), series, sets)
+    pieces = [_starts(record, limbs) for limbs in sets] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
+    starts, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))
+    joints = question.closed(starts)
+    looked = sum(own.roots for limbs in sets for own in limbs)
+    sure = starts[bent <= DOUBTFUL]
+    doubtful = len(joints) != len(sure) or (len(sure) < len(starts) and len(question.closed(sure)) < len(joints))
+    if doubtful or not poses.sure:
+        return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", looked)
+    return LoopSolutions(joints, True, right, looked, limbs=tuple(sets[0]) if len(sets) == 1 else ())
+
+
+def _right(poses: Poses, real: int, series: Sequence[Limb], sets: Sequence[Sequence[LimbSolutions]]) -> str:
+    whole = f"the platform as limbs hold it, {poses.complex} complex poses, {real} of them real"
+    if not sets:
+        return whole
+    names = ", ".join(f"{limb.joints[0]} ({own.roots})" for limb, own in zip(series, sets[0], strict=True))
+    return f"{whole + ', then ' if poses.complex > 1 else ''}each limb alone, for all its roots: {names}"
+
+
+def _drawn(record: MechanismRecord, pose: FloatArray, size: float, count: int, rng: np.random.Generator) -> Frame:
+    """Frames of the platform at a pose (m,), open coordinates by chance."""
+    named = dict(zip(record.platform.pose, pose, strict=True))
+    place = rng.uniform(-size, size, (count, 3))
+    for k, name in enumerate(LENGTHS):
+        place[:, k] = named.get(name, place[:, k])
+    angles = [
+        named.get(name, drawn) for name, drawn in zip(ANGLES, rng.uniform(-np.pi, np.pi, (3, count)), strict=True)
+    ]
+    if has_quaternion(record.platform.pose):
+        turned = rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))
+    elif named.keys() & {*ANGLES}:
+        turned = rotations.from_angles(*(np.broadcast_to(angle, count) for angle in angles))
+    else:
+        turned = drawn_rotations(rng, count)
+    turned = np.broadcast_to(turned, (count, 3, 3))
+    return turned, place - turned @ record.platform.point
+
+
+def _as_given(record: MechanismRecord, pose: FloatArray, frame: Frame, size: float) -> bool:
+    """Whether a frame is printed as the pose: an open angle may be given by the one beyond a half turn."""
+    seen = frame[0], frame[1] + frame[0] @ record.platform.point
+    return bool(np.max(np.abs(error_of(record.platform.pose, seen, pose, size))) < AS_GIVEN * size)
+
+
+def _starts(record: MechanismRecord, limbs: list[LimbSolutions]) -> tuple[FloatArray, FloatArray]:
+    """Joint values (N, n) of all choices, and by how much (N,) their roots were made real."""
+    choices = [*product(*(range(len(own.values)) for own in limbs))]
+    starts = np.tile(home_values(record), (len(choices), 1))
+    bent = np.zeros(len(choices))
+    for own, chosen in zip(limbs, np.array(choices, dtype=int).reshape(-1, len(limbs)).T, strict=True):
+        starts[:, list(own.indices)] = own.values[chosen]
+        bent = np.maximum(bent, own.bent[chosen])
+    return starts, bent

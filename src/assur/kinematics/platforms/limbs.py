@@ -1,0 +1,120 @@
+"""What a limb says of the platform, and all ways in which it closes: a series, or several that meet at one link."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.frames import Frame
+from assur.kinematics.limbs.branched import Limb, from_platform
+from assur.kinematics.limbs.point_closure import MovingLimbError
+from assur.kinematics.limbs.serial import NotSerialError, SerialLimb
+from assur.kinematics.limbs.solving import LimbSolutions
+from assur.kinematics.platforms.chains import closed_series, held_series
+from assur.kinematics.platforms.conditions import (
+    SAMPLES,
+    Conditions,
+    conditions_of,
+    joined,
+    series_conditions,
+    series_points,
+)
+from assur.kinematics.platforms.poses import poses_under
+from assur.kinematics.platforms.soma import SIZE, composed_soma
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+MOST_SECTIONS = 2 * SAMPLES
+
+
+def held_limb(limb: Limb, held: Mapping[int, float]) -> Limb:
+    """A limb with held joint values."""
+    if isinstance(limb, SerialLimb):
+        return held_series(limb, held)
+    return limb.each(lambda series: held_series(series, held))
+
+
+def limb_conditions(limb: Limb, size: float) -> Conditions:
+    """Linear forms and quadrics that are zero at all poses that a limb allows; places are in lengths `size`.
+
+    Errors:
+        UncertainConditionsError: they cannot be told from rounding.
+        NotSerialError: series that meet leave their link nothing.
+
+    >>> from assur.kinematics.limbs.branched import limbs_of
+    >>> from assur.model.registry import load_record
+    >>> limb = limbs_of(load_record("gough_stewart"))[0]
+    >>> [len(limb_conditions(held_limb(limb, held), 1.0).quadrics) for held in ({}, {2: 1.0})]
+    [0, 1]
+    """
+    if isinstance(limb, SerialLimb):
+        return series_conditions(limb, size)
+    rng = np.random.default_rng(4)
+    near, far = (_points(series, size, rng) for series in (limb.near, limb.far))
+    return conditions_of(composed_soma(near, far))
+
+
+def closed_limb(limb: Limb, platform: Frame, size: float, driven: Collection[int] = ()) -> LimbSolutions:
+    """All ways in which a limb closes at a frame of the platform.
+
+    Errors:
+        NotSerialError: it is not solved in this way.
+        MovingLimbError: it closes in infinitely many ways.
+        UncertainConditionsError: what a part of it allows cannot be told from rounding.
+    """
+    if isinstance(limb, SerialLimb):
+        return closed_series(limb, platform, driven)
+    series = (*limb.near, *(from_platform(own, platform) for own in limb.far))
+    poses = poses_under(joined(series_conditions(own, size) for own in series), size)
+    if poses is None:
+        raise MovingLimbError
+    if not poses.sure:
+        raise NotSerialError(f"{', '.join(limb.joints)}: roots are too near to tell them")
+    sets = [[closed_series(own, frame, driven) for own in series] for frame in poses.frames]
+    indices = tuple(sorted(index for own in series for motion in own.motions for index in motion.indices))
+    rows = [row for parts in sets for row in _choices(parts, indices)]
+    values = np.array([values for values, _ in rows]).reshape(len(rows), len(indices))
+    return LimbSolutions(limb, indices, values, np.array([bent for _, bent in rows]), poses.complex)
+
+
+def _choices(parts: list[LimbSolutions], indices: tuple[int, ...]) -> Iterator[tuple[FloatArray, float]]:
+    """Values of all series, one way each, and by how much their roots were made real."""
+    for chosen in product(*(range(len(own.values)) for own in parts)):
+        row, bent = np.empty(len(indices)), 0.0
+        for own, k in zip(parts, chosen, strict=True):
+            row[[indices.index(index) for index in own.indices]] = own.values[k]
+            bent = max(bent, float(own.bent[k]))
+        yield row, bent
+
+
+def _points(series: tuple[SerialLimb, ...], size: float, rng: np.random.Generator) -> ComplexArray:
+    """Soma (SAMPLES, 8), complex ones too, of poses by chance that all series between two links allow."""
+    if len(series) == 1:
+        return series_points(series[0], size, SAMPLES, rng).astype(complex)
+    conditions = joined(series_conditions(own, size) for own in series)
+    for freedoms in range(SIZE - 2, -1, -1):
+        points = _section(conditions, freedoms, rng)
+        if len(points):
+            break
+    else:
+        raise NotSerialError("series that meet leave their link nothing")
+    if not freedoms:
+        return points[np.arange(SAMPLES) % len(points)]
+    for _ in range(MOST_SECTIONS):
+        if len(points) >= SAMPLES:
+            return points[:SAMPLES]
+        points = np.concatenate([points, _section(conditions, freedoms, rng)])
+    raise NotSerialError("series that meet leave their link too little")
+
+
+def _section(conditions: Conditions, freedoms: int, rng: np.random.Generator) -> ComplexArray:
+    """Poses (K, 8) on as many planes by chance."""
+    planes = np.linalg.qr(rng.normal(size=(SIZE, freedoms)))[0].T
+    linear = np.linalg.qr(np.concatenate([conditions.linear, planes]).T)[0].T
+    if len(linear) >= SIZE:
+        return np.zeros((0, SIZE), dtype=complex)
+    poses = poses_under(Conditions(linear, conditions.quadrics), 1.0)
+    return np.zeros((0, SIZE), dtype=complex) if poses is None else poses.soma
