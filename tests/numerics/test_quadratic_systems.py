@@ -52,6 +52,16 @@ def test_a_curve_of_roots_is_noticed() -> None:
     assert not bilinear(twice).isolated
 
 
+def test_a_form_that_vanishes_leaves_a_curve_of_roots() -> None:
+    """Rounding in its place would have roots of its own."""
+    noise = 1e-17 * np.random.default_rng(0).normal(size=(2, 2))
+    assert not bilinear(np.array([[[-1, 0], [0, 1]], noise], dtype=complex)).isolated
+    circle = np.diag([-1.0, 1.0, 1.0])
+    assert not quadratic(
+        np.array([circle, 1e-17 * np.random.default_rng(1).normal(size=(3, 3))], dtype=complex)
+    ).isolated
+
+
 def _spheres(centres: np.ndarray, radii: np.ndarray) -> np.ndarray:
     forms = np.zeros((len(centres), 4, 4), dtype=complex)
     for form, centre, radius in zip(forms, centres, radii, strict=True):

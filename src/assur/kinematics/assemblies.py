@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Interrupted
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import held_inputs
-from assur.kinematics.closure import assemble
+from assur.kinematics.closure import RANK_GAP, assemble, closing_system
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.limbs.solving import LimbSolutions
@@ -19,6 +20,7 @@ from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
+from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.search import SAME, STARTS, places, search
 from assur.kinematics.starts import by_chance
@@ -79,10 +81,23 @@ def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed
     """Without a search, by what is complete; else what the loops give."""
     if problem == "inverse":
         own = inverse_by_limbs(record, given)
-        return own if own and own.complete else solve_by_loops(record, pose=given, crossed=crossed)
+        if own and own.complete:
+            return own if crossed else _uncrossed(record, own)
+        return solve_by_loops(record, pose=given, crossed=crossed)
     turn = solve_by_loops(record, given, crossed=crossed)
     own = None if turn.complete else direct_by_conditions(record, given)
-    return own if own and own.complete else turn
+    if own and own.complete:
+        return own if crossed else _uncrossed(record, own)
+    return turn
+
+
+def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutions:
+    """Those in which every parallelogram stands as such; all of them where one is crossed at home."""
+    names = tuple(parallelograms(record))
+    if not names or crossed_parallelograms(record, home_values(record)):
+        return solutions
+    kept = [not crossed_parallelograms(record, row) for row in solutions.joints]
+    return replace(solutions, joints=solutions.joints[kept], kept=names, limbs=())
 
 
 def _of_self_motions(record: MechanismRecord, inputs: FloatArray) -> _Assemblies:
@@ -96,6 +111,22 @@ def _of_self_motions(record: MechanismRecord, inputs: FloatArray) -> _Assemblies
     right = f"not proved: a search from {STARTS} starts, of whose assemblies up to {POINTS} are kept"
     joints = joints[nearest_first(record, joints)]
     return _Assemblies(joints[_apart(places(record, joints))], False, right, float(np.min(closed.residual)), False)
+
+
+def _without_motions(record: MechanismRecord, problem: Problem, joints: FloatArray) -> list[int]:
+    """Rows of joint values (K, n) that do not move with inputs or pose held, and `POINTS` of those that do.
+
+    What spins at home as well, as a rod, is no motion.
+    """
+    rows = np.concatenate([home_values(record)[None], joints])
+    free = np.delete(np.arange(rows.shape[1]), list(record.input_indices) if problem == "direct" else [])
+    slopes = closing_system(record, rows, pose_of(record, rows) if problem == "inverse" else None)[1]
+    units = characteristic_length(record) / joint_scales(record)[free]
+    sizes = np.linalg.svd(slopes[..., free] / units, compute_uv=False)
+    ranks = np.sum(sizes > RANK_GAP * sizes[:, :1], axis=1)
+    moving = ranks[1:] < ranks[0]
+    listed = np.flatnonzero(moving)
+    return sorted([*np.flatnonzero(~moving).tolist(), *listed[_apart(places(record, joints[moving]))].tolist()])
 
 
 def _apart(where: FloatArray) -> list[int]:
@@ -126,6 +157,11 @@ def _assemblies(
         f"of which number {found.last_new} found the last new one" if len(found.joints) else "none of which found one"
     )
     reason = f"not proved: a search from {found.starts} starts, {last}"
+    if not found.settled:
+        rows = _without_motions(record, problem, found.joints)
+        if len(rows) < len(found.joints):
+            reason += f"; of {len(found.joints)} assemblies, most of which move with what is held, {len(rows)} are kept"
+            found = replace(found, joints=found.joints[rows])
     if crossed or not parallelograms(record) or crossed_parallelograms(record, home_values(record)):
         return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
     kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]

@@ -23,6 +23,8 @@ ComplexArray = NDArray[np.complex128]
 
 NULL = 1e-10
 """Singular values below this share of the largest count as zero; double roots do not bring them near it."""
+VANISHING = 1e-12
+"""Norm of a form, coefficients being of order 1, that is rounding."""
 LINEAR = 1e-9
 """Quadratic parts of equations below this share of their largest coefficient are none."""
 AT_INFINITY = 1e-9
@@ -57,6 +59,8 @@ def quadratic(forms: ComplexArray) -> Roots:
     """
     forms, chart = _without_common_parts((forms + np.swapaxes(forms, 1, 2)) / 2)
     size = forms.shape[-1]
+    if len(forms) < size - 1:
+        return Roots(np.zeros((0, len(chart) - 1), dtype=complex), 2 ** (size - 1), isolated=False)
     if size == 1:
         return Roots(chart.T[:, 1:], 1, isolated=True)
     turn = _unitary(size)
@@ -81,11 +85,12 @@ def _without_common_parts(forms: ComplexArray) -> tuple[ComplexArray, ComplexArr
     """Fewer forms in fewer unknowns, and the chart (1 + n, 1 + k) back.
 
     Combinations of equations whose quadratic parts cancel, as in the difference of two spheres, are linear: they
-    take unknowns away, and with them whole curves of roots at infinity.
+    take unknowns away, and with them whole curves of roots at infinity. A form that vanishes is left out.
     """
     chart = np.eye(forms.shape[-1], dtype=complex)
     while True:
-        forms = forms / np.linalg.norm(forms, axis=(1, 2), keepdims=True)
+        sizes = np.linalg.norm(forms, axis=(1, 2))
+        forms = forms[sizes > VANISHING] / sizes[sizes > VANISHING, None, None]
         left, singular, _ = np.linalg.svd(forms[:, 1:, 1:].reshape(len(forms), -1))
         rank = int(np.sum(singular > LINEAR))
         if rank == len(forms):
@@ -117,6 +122,8 @@ def bilinear(forms: ComplexArray) -> Roots:
     size = forms.shape[-1]
     loops = size - 1
     count = math.comb(2 * loops, loops)
+    if np.any(np.linalg.norm(forms, axis=(1, 2)) <= VANISHING):
+        return Roots(np.zeros((0, 2 * loops), dtype=complex), count, isolated=False)
     turn, other = _unitary(size), _unitary(size, seed=1)
     turned = np.einsum("ia,kij,jb->kab", turn, forms, other)
     degree = 1 if loops == 1 else loops + 1  # so that one degree lower the roots are independent already

@@ -1,12 +1,14 @@
 """Chains closed by their middle link: six turns have sixteen ways, and no start of Newton's method meets more."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from assur.cli.main import main
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.branched import limbs_of
+from assur.kinematics.limbs.networks import limbs_of
 from assur.kinematics.limbs.point_closure import MovingLimbError
 from assur.kinematics.limbs.serial import (
     ElementaryMotion,
@@ -21,6 +23,7 @@ from assur.kinematics.platforms.chains import closed_series, held_series, loop_o
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.search import distinct, search
 from assur.model.registry import load_record
+from assur.numerics.rotations import from_vector
 
 
 def chain(seed, kinds):
@@ -111,6 +114,51 @@ def test_a_loop_closes_where_its_limbs_meet():
     back = composed(composed(end(second, values[3:]), (rotation, place)), inverted(end(second, values[3:])))
     assert np.allclose(loop[0], back[0], rtol=0, atol=1e-12)
     assert np.allclose(loop[1], back[1], rtol=0, atol=1e-12)
+
+
+def with_screws(limb, places, advance=0.2):
+    motions = [
+        replace(motion, kind="screw", advance=advance) if k in places else motion
+        for k, motion in enumerate(limb.motions)
+    ]
+    return replace(limb, motions=tuple(motions))
+
+
+def test_the_shift_along_parallel_axes_tells_a_screw_among_them():
+    """Beyond a turn too; what is left is an arm of two links, with two ways."""
+    limb = chain(5, ("turn",) * 4)
+    axis = limb.motions[0].axis
+    parallel = replace(limb, motions=tuple(replace(motion, axis=axis) for motion in limb.motions))
+    limb = with_screws(parallel, {1})
+    values = np.array([0.4, 9.0, -0.7, 1.1])
+    solutions = closed_series(limb, end(limb, values))
+    assert len(solutions.values) == 2
+    assert np.allclose(solutions.values[:, 1], 9.0, rtol=0, atol=1e-9)
+    for row in solutions.values:
+        for part, expected in zip(end(limb, row), end(limb, values), strict=True):
+            assert np.allclose(part, expected, rtol=0, atol=1e-8)
+
+
+def test_a_screw_slides_a_point_of_its_axis_and_turns_what_follows():
+    """Two turns that cross, a screw, and a ball joint on its axis, far from what a search could be started at."""
+    first = chain(6, ("turn", "turn", "screw", "ball"))
+    ball = replace(first.motions[3], axis=np.eye(3), point=first.motions[2].point + 1.3 * first.motions[2].axis)
+    limb = with_screws(replace(first, motions=(*first.motions[:3], ball)), {2})
+    frame = end(replace(limb, motions=limb.motions[:3]), np.array([0.3, -0.8, 14.0]))
+    solutions = closed_series(limb, frame)
+    assert np.min(np.max(np.abs(solutions.values - [0.3, -0.8, 14.0, 0, 0, 0]), axis=1)) < 1e-8
+    for row in solutions.values:
+        placed = end(replace(limb, motions=limb.motions[:3], zero=(np.eye(3), np.zeros(3))), row[:3])
+        turned = from_vector(row[3:])
+        whole = composed(placed, composed((turned, ball.point - turned @ ball.point), limb.zero))
+        assert np.allclose(whole[1], frame[1], rtol=0, atol=1e-8)
+        assert np.allclose(whole[0], frame[0], rtol=0, atol=1e-8)
+
+
+def test_a_screw_that_moves_a_point_beside_its_axis_is_not_solved_so():
+    limb = with_screws(chain(3, ("turn",) * 6), {2})
+    with pytest.raises(NotSerialError, match="beside its axis"):
+        limb_solutions(replace(limb, motions=limb.motions[:4]), limb.zero)
 
 
 SEVEN_TURNS = "{R[z] R[x] R[0,0.6,0.8] | R[0.6,0,0.8] R[0,1,0] R[0.28,0.96,0] R[0.8,0.6,0]}"

@@ -6,7 +6,7 @@ import pytest
 from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.branched import limbs_of
+from assur.kinematics.limbs.networks import limbs_of
 from assur.kinematics.platforms.conditions import (
     UncertainConditionsError,
     conditions_at,

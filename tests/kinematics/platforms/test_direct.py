@@ -10,6 +10,7 @@ from assur.cli.main import main
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
+from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import distinct, search
@@ -41,8 +42,9 @@ ARRANGEMENTS = {
     "2UPR-RPU": ("2UPR-RPU",),
     "3-RRR": ("3-RRR", "spherical"),
     "3-UPS/S": ("3-UPS/S",),
+    "ball screws in legs": ("--limb", "U[x,y] {R[z]@O H[z]@O | P[z]} S", "--count", "3"),
 }
-QUICK = ("6-RUS", "3-SPR", "2UPR-SPR", "3-RRR")
+QUICK = ("6-RUS", "3-SPR", "2UPR-SPR", "3-RRR", "ball screws in legs")
 
 
 @pytest.fixture(
@@ -92,8 +94,22 @@ def test_forty_real_poses_are_all_found():
     assert (len(solutions.joints), solutions.complete) == (40, True)
 
 
-def test_limbs_with_inner_loops_are_left_to_others():
-    assert direct_by_conditions(load_record("zeng2019"), np.full(3, 10.0)) is None
+def test_rods_that_form_parallelograms_may_cross():
+    """Those of the Delta robot: among all assemblies are the two of the closed form, with no rod crossed."""
+    record = load_record("delta_4s")
+    inputs = np.radians([10.0, 20.0, 30.0])
+    solutions = direct_by_conditions(record, inputs)
+    assert solutions.complete
+    uncrossed = [row for row in solutions.joints if not crossed_parallelograms(record, row)]
+    assert len(uncrossed) == len(assur.load("delta_4s").direct(inputs)) == 2
+    met = search(record, "direct", inputs).joints
+    assert len(met) == len(solutions.joints) > 2
+    assert len(distinct(record, np.concatenate([solutions.joints, met]))) == len(met)
+
+
+def test_parallelograms_of_hinges_are_left_to_others():
+    solutions = direct_by_conditions(load_record("zeng2019"), np.full(3, 10.0))
+    assert solutions is None or not solutions.complete
 
 
 def test_a_platform_that_drives_leave_free_is_none_of_these(tmp_path):

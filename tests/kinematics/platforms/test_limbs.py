@@ -7,7 +7,7 @@ from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.branched import limbs_of
+from assur.kinematics.limbs.networks import limbs_of
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.platforms.limbs import closed_limb, held_limb, limb_conditions

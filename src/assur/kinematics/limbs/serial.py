@@ -1,13 +1,13 @@
 """Serial limbs as products of elementary motions: E1(q1) ... En(qn) takes the platform from the zeros to its pose.
 
 Axes are lines of space where all joint values of the limb are zero (R. W. Brockett 1984). A universal joint is two
-turns, a cylindrical joint a slide and a turn; a ball joint is one motion about its point.
+turns, a cylindrical joint a slide and a turn; a ball joint is one motion about its point, a screw one along its axis.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -22,7 +22,7 @@ FloatArray = NDArray[np.float64]
 
 
 class NotSerialError(Exception):
-    """A limb that is no series of turns, slides and ball joints; the message says which, and why."""
+    """A limb that is no series of joints, or is not solved as one; the message says which, and why."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,23 +30,24 @@ class ElementaryMotion:
     """One motion of a serial limb.
 
     Attributes:
-        kind: a turn about a line, a slide along it, or a ball joint about a point.
+        kind: a turn about a line, a slide along it, a screw on it, or a ball joint about a point.
         axis: (3,) unit vector; of a ball joint the rows (3, 3) of the frame in which its rotation vector is given.
         point: (3,) on the line, or the ball joint's.
         index: the first of its coordinates in the joint values.
         sense: -1 where the limb runs through the joint from its child to its parent.
+        advance: of a screw, by a radian.
     """
 
-    kind: Literal["turn", "slide", "ball"]
+    kind: Literal["turn", "slide", "screw", "ball"]
     axis: FloatArray
     point: FloatArray
     index: int
     sense: int
+    advance: float = 0.0
 
     def moved(self, rotation: FloatArray, shift: FloatArray) -> ElementaryMotion:
         """The same about a line that was displaced."""
-        axis = self.axis @ rotation.T
-        return ElementaryMotion(self.kind, axis, rotation @ self.point + shift, self.index, self.sense)
+        return replace(self, axis=self.axis @ rotation.T, point=rotation @ self.point + shift)
 
     @property
     def indices(self) -> tuple[int, ...]:
@@ -56,7 +57,7 @@ class ElementaryMotion:
     @property
     def back(self) -> ElementaryMotion:
         """The opposite motion."""
-        return ElementaryMotion(self.kind, self.axis, self.point, self.index, -self.sense)
+        return replace(self, sense=-self.sense)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +74,18 @@ class SerialLimb:
     motions: tuple[ElementaryMotion, ...]
     zero: Frame
 
+    def from_platform(self, platform: Frame) -> SerialLimb:
+        """The same from the base to where it begins, the platform held at a frame."""
+        displaced = composed(platform, inverted(self.zero))
+        back = tuple(motion.moved(*displaced).back for motion in reversed(self.motions))
+        return SerialLimb(self.joints, back, displaced)
+
 
 def serial_limb(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> SerialLimb:
     """Joints as a series from one link to another; `zero` and the motions are in the frame of the first.
 
     Errors:
-        NotSerialError: they are none, or one of them is a screw.
+        NotSerialError: they are none.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("planar_3rrr")
@@ -119,10 +126,9 @@ def _motions(record: MechanismRecord, joint: Joint, parent: Frame) -> Iterator[E
     start = joint_graph(record).slices[joint.name].start
     point = parent[0] @ joint.at + parent[1]
     for step, place in joint.type.places:
-        if step.kind == "screw":
-            raise NotSerialError(f"{joint.name} is a screw")
         axis = parent[0].T if step.kind == "ball" else parent[0] @ joint.axes[step.direction]
-        yield ElementaryMotion(step.kind, axis, point, start + place, 1)
+        advance = joint.pitch / (2 * np.pi) if step.kind == "screw" else 0.0
+        yield ElementaryMotion(step.kind, axis, point, start + place, 1, advance)
 
 
 def _parent_frame(joint: Joint, child: Frame) -> Frame:
@@ -137,16 +143,16 @@ def _other(joint: Joint, link: str) -> str:
 
 
 def displacement(motion: ElementaryMotion, value: FloatArray) -> Frame:
-    """Rotation (..., 3, 3) and shift (..., 3) of space by a turn or a slide with joint values (...)."""
+    """Rotation (..., 3, 3) and shift (..., 3) of space by a turn, a slide or a screw with joint values (...)."""
     amount = np.asarray(motion.sense * value)
     if motion.kind == "slide":
         return np.broadcast_to(np.eye(3), (*amount.shape, 3, 3)), amount[..., None] * motion.axis
     turned = rotations.about_axis(motion.axis, amount)
-    return turned, motion.point - turned @ motion.point
+    return turned, motion.point - turned @ motion.point + motion.advance * amount[..., None] * motion.axis
 
 
 def applied(motion: ElementaryMotion, value: FloatArray, points: FloatArray) -> FloatArray:
-    """Points (..., 3) moved by a turn or a slide with joint values (...)."""
+    """Points (..., 3) moved by a turn, a slide or a screw with joint values (...)."""
     rotation, shift = displacement(motion, value)
     return np.asarray((rotation @ points[..., None])[..., 0] + shift)
 

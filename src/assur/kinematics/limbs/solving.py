@@ -8,14 +8,14 @@ spin: one other motion decides the distance of the two.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
-from assur.kinematics.limbs.branched import Limb
 from assur.kinematics.limbs.concurrent import along, ball_values, concurrent_turns
+from assur.kinematics.limbs.networks import Limb
 from assur.kinematics.limbs.point_closure import (
     CLOSE,
     MovingLimbError,
@@ -61,6 +61,12 @@ class LimbSolutions:
     bent: FloatArray
     roots: int
 
+    def with_value(self, limb: Limb, index: int, value: float) -> LimbSolutions:
+        """Those of a limb in which one more joint value is known."""
+        place = int(np.searchsorted(self.indices, index))
+        indices = (*self.indices[:place], index, *self.indices[place:])
+        return replace(self, limb=limb, indices=indices, values=np.insert(self.values, place, value, axis=1))
+
 
 def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = ()) -> LimbSolutions:
     """A limb at a frame of the platform; ways that differ in neither points nor `driven` joint values count once.
@@ -86,8 +92,10 @@ def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = 
 
 
 def size_of(motions: Sequence[ElementaryMotion]) -> float:
-    """A length to which the points of a limb compare."""
-    return float(np.max(np.ptp([motion.point for motion in motions], axis=0))) or 1.0
+    """A length to which the points of a limb compare: how far they are apart, else how far away."""
+    points = [motion.point for motion in motions]
+    apart, away = float(np.max(np.ptp(points, axis=0))), float(np.max(np.abs(points)))
+    return (apart if apart > MEETING * away else away) or 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +114,8 @@ def _centres(limb: SerialLimb) -> list[_Centre]:
     if len(balls) > 1:
         raise NotSerialError(f"{', '.join(limb.joints)}: more than two ball joints")
     centres = [_Centre(motions[k].point, k, k + 1) for k in balls] or [*_meetings(motions)]
+    if all(motion.kind == "slide" for motion in motions):  # which any point tells
+        centres = [_Centre(motions[0].point, 0, 0)]
     others = [len(motions) - (centre.end - centre.start) for centre in centres]
     if min(others, default=OTHERS + 1) > OTHERS:
         raise NotSerialError(f"{', '.join(limb.joints)}: no point that all but three freedoms leave in place")
@@ -159,17 +169,43 @@ def _about_point(motions: Sequence[ElementaryMotion], centre: _Centre, displaced
     before, about, after = motions[: centre.start], motions[centre.start : centre.end], motions[centre.end :]
     others = _others(before, after, displaced)
     moved = displaced[0] @ centre.point + displaced[1]
-    closure = point_closure(others, moved, centre.point, size_of([*motions, *others]))
+    closure = _point_closure(others, moved, centre.point, size_of([*motions, *others]))
     rows: Rows = []
     for values, bent in zip(closure.values, closure.bent, strict=True):
         near, far = values[: len(before)][::-1], values[len(before) :][::-1]
         rotation = _left(before, near, displaced, after, far)[0]
-        if about[0].kind == "ball":
+        if about and about[0].kind == "ball":
             rows.append(([*near, *ball_values(about[0], rotation), *far], bent))
             continue
         turned, more = concurrent_turns(about, rotation)
         rows += [([*near, *own, *far], max(bent, other)) for own, other in zip(turned, more, strict=True)]
     return rows, closure.roots
+
+
+def _point_closure(
+    motions: Sequence[ElementaryMotion], point: FloatArray, place: FloatArray, size: float
+) -> PointClosure:
+    """A screw slides a point of its axis, and is solved as the slide."""
+    slides = [_slide_of(motions, k, point, place, size) for k in range(len(motions))]
+    closure = point_closure(slides, point, place, size)
+    return replace(closure, values=closure.values / [motion.advance or 1.0 for motion in motions])
+
+
+def _slide_of(
+    motions: Sequence[ElementaryMotion], number: int, point: FloatArray, place: FloatArray, size: float
+) -> ElementaryMotion:
+    """One of several motions that take a point to a place; of a screw the slide that it is on its axis."""
+    screw = motions[number]
+    if screw.kind != "screw":
+        return screw
+    for end, others in ((point, motions[number + 1 :]), (place, motions[:number])):
+        points = [end, *(motion.point for motion in others)]
+        tips = [screw.point + motion.axis for motion in others]
+        if max(_distance(screw, own) / size for own in points) < MEETING and all(
+            _distance(screw, tip) < MEETING for tip in tips
+        ):
+            return replace(screw, kind="slide")
+    raise NotSerialError("a screw moves a point beside its axis")
 
 
 def _others(
@@ -201,8 +237,8 @@ def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displa
     before, middle, after = motions[:first], motions[first + 1 : second], motions[second + 1 :]
     start, end = motions[first], motions[second]
     others = [*before, *middle, *after]
-    if len(others) > 1:
-        raise NotSerialError("two ball joints, and more than one motion beside them")
+    if len(others) > 1 or any(motion.kind == "screw" for motion in others):
+        raise NotSerialError("two ball joints, and more than a turn or a slide beside them")
     far_end = displaced[0] @ end.point + displaced[1]
     if not others:
         off = float(abs(np.linalg.norm(far_end - start.point) - np.linalg.norm(end.point - start.point)))
@@ -258,7 +294,10 @@ def _places(
         if motion.kind != "ball":
             frame = composed(frame, displacement(motion, own[0]))
             if motion.index in driven:
-                yield from (own[0] / size,) if motion.kind == "slide" else (np.cos(own[0]), np.sin(own[0]))
+                if motion.kind == "turn":
+                    yield from (np.cos(own[0]), np.sin(own[0]))
+                else:
+                    yield own[0] * (motion.advance or 1.0) / size
         else:
             turned = rotations.from_vector(motion.axis.T @ own)
             turned = turned if motion.sense > 0 else turned.T

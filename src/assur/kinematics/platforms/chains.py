@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
-from assur.kinematics.limbs.branched import from_platform
 from assur.kinematics.limbs.point_closure import MovingLimbError
 from assur.kinematics.limbs.serial import (
     ElementaryMotion,
@@ -29,6 +28,8 @@ from assur.kinematics.platforms.poses import poses_under
 
 FloatArray = NDArray[np.float64]
 FREEDOMS = 6
+STRAIGHT = 1e-9
+"""Sine or cosine of an angle between axes up to which it is rounding."""
 
 
 def closed_series(limb: SerialLimb, platform: Frame, driven: Collection[int] = ()) -> LimbSolutions:
@@ -39,18 +40,42 @@ def closed_series(limb: SerialLimb, platform: Frame, driven: Collection[int] = (
         MovingLimbError: it closes in infinitely many ways.
         UncertainConditionsError: what a half allows cannot be told from rounding.
 
-    >>> from assur.kinematics.limbs.branched import limbs_of
+    >>> from assur.kinematics.limbs.networks import limbs_of
     >>> from assur.model.registry import load_record
     >>> limb = limbs_of(load_record("planar_3rrr"))[0]
     >>> len(closed_series(limb, (np.eye(3), np.zeros(3))).values)
     2
     """
+    advanced = _screw_that_shifts(limb, platform)
+    if advanced:
+        ((index, value),) = advanced.items()
+        return closed_series(held_series(limb, advanced), platform, driven).with_value(limb, index, value)
     try:
         return limb_solutions(limb, platform, driven)
     except NotSerialError:
         if sum(map(_freedoms, limb.motions)) > FREEDOMS or len(limb.motions) < 2:
             raise
     return _by_middle(limb, platform, driven)
+
+
+def _screw_that_shifts(limb: SerialLimb, platform: Frame) -> dict[int, float]:
+    """Index -> value of its one screw, if nothing else shifts the platform along the screw's axis."""
+    screws = [motion for motion in limb.motions if motion.kind == "screw"]
+    if len(screws) != 1:
+        return {}
+    (screw,) = screws
+    if not all(_keeps_along(motion, screw.axis) for motion in limb.motions if motion is not screw):
+        return {}
+    rotation, shift = composed(platform, inverted(limb.zero))
+    away = rotation @ screw.point + shift - screw.point
+    return {screw.index: float(screw.sense * (away @ screw.axis) / screw.advance)}
+
+
+def _keeps_along(motion: ElementaryMotion, axis: FloatArray) -> bool:
+    """Whether a motion shifts nothing along an axis."""
+    if motion.kind == "slide":
+        return bool(abs(motion.axis @ axis) < STRAIGHT)
+    return motion.kind == "turn" and bool(np.linalg.norm(np.cross(motion.axis, axis)) < STRAIGHT)
 
 
 def held_series(limb: SerialLimb, held: Mapping[int, float]) -> SerialLimb:
@@ -82,7 +107,7 @@ def _by_middle(limb: SerialLimb, platform: Frame, driven: Collection[int]) -> Li
     cut = min(range(1, len(motions)), key=lambda k: max(sum(whole[:k]), sum(whole[k:])))
     halves = (
         SerialLimb(limb.joints, motions[:cut], (np.eye(3), np.zeros(3))),
-        from_platform(SerialLimb(limb.joints, motions[cut:], limb.zero), platform),
+        SerialLimb(limb.joints, motions[cut:], limb.zero).from_platform(platform),
     )
     poses = poses_under(joined(series_conditions(half, size) for half in halves), size)
     if poses is None:

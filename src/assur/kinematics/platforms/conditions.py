@@ -54,7 +54,7 @@ class Conditions:
 def series_conditions(limb: SerialLimb, size: float) -> Conditions:
     """Of a series of joints; places are in lengths `size`. Errors: UncertainConditionsError.
 
-    >>> from assur.kinematics.limbs.branched import limbs_of
+    >>> from assur.kinematics.limbs.networks import limbs_of
     >>> from assur.model.registry import load_record
     >>> series_conditions(limbs_of(load_record("planar_3rrr"))[0], 1.0).linear.shape
     (4, 8)
@@ -77,6 +77,8 @@ def _drawn_series(limb: SerialLimb, size: float, count: int, rng: np.random.Gene
         else:
             reach = size if motion.kind == "slide" else np.pi
             step = displacement(motion, rng.uniform(-reach, reach, count))
+            if motion.kind == "screw":  # as a turn and a slide, which is all that can be said by polynomials
+                step = step[0], step[1] + rng.uniform(-size, size, (count, 1)) * motion.axis
         frames = composed(step, frames)
     return frames
 

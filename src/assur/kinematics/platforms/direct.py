@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.branched import Limb, limbs_of, limbs_of_middle
+from assur.kinematics.limbs.networks import Limb, limbs_of, limbs_of_middle
 from assur.kinematics.limbs.point_closure import MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb
 from assur.kinematics.limbs.solving import LimbSolutions

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.frames import Frame
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
-from assur.kinematics.limbs.branched import Limb, limbs_of
+from assur.kinematics.limbs.networks import Limb, limbs_of
 from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError
 from assur.kinematics.limbs.solving import LimbSolutions
@@ -27,6 +27,7 @@ from assur.kinematics.platforms.conditions import (
 from assur.kinematics.platforms.limbs import closed_limb, limb_conditions
 from assur.kinematics.platforms.poses import Poses, poses_under
 from assur.kinematics.pose import error_of
+from assur.kinematics.turns import counts_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
@@ -65,6 +66,9 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
     right = _right(poses, len(frames), series, sets)
     pieces = [_starts(record, limbs) for limbs in sets] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
     starts, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))
+    if counts_turns(record):  # a nut threaded on another turn closes as well
+        starts, same = with_turns_of_home(record, starts)
+        starts, bent, right = starts[same], bent[same], right + "; screws have the turns of home"
     joints = question.closed(starts)
     looked = sum(own.roots for limbs in sets for own in limbs)
     sure = starts[bent <= DOUBTFUL]

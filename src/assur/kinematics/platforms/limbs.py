@@ -1,15 +1,18 @@
-"""What a limb says of the platform, and all ways in which it closes: a series, or several that meet at one link."""
+"""What a limb says of the platform, and all ways in which it closes: a series of joints, or a network of parts."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial, reduce
 from itertools import product
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
-from assur.kinematics.limbs.branched import Limb, from_platform
+from assur.kinematics.limbs.networks import Limb, ParallelParts, SeriesParts, from_platform, series_changed
 from assur.kinematics.limbs.point_closure import MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb
 from assur.kinematics.limbs.solving import LimbSolutions
@@ -32,9 +35,7 @@ MOST_SECTIONS = 2 * SAMPLES
 
 def held_limb(limb: Limb, held: Mapping[int, float]) -> Limb:
     """A limb with held joint values."""
-    if isinstance(limb, SerialLimb):
-        return held_series(limb, held)
-    return limb.each(lambda series: held_series(series, held))
+    return series_changed(limb, partial(held_series, held=held))
 
 
 def limb_conditions(limb: Limb, size: float) -> Conditions:
@@ -42,9 +43,9 @@ def limb_conditions(limb: Limb, size: float) -> Conditions:
 
     Errors:
         UncertainConditionsError: they cannot be told from rounding.
-        NotSerialError: series that meet leave their link nothing.
+        NotSerialError: parts side by side leave the link where they meet nothing.
 
-    >>> from assur.kinematics.limbs.branched import limbs_of
+    >>> from assur.kinematics.limbs.networks import limbs_of
     >>> from assur.model.registry import load_record
     >>> limb = limbs_of(load_record("gough_stewart"))[0]
     >>> [len(limb_conditions(held_limb(limb, held), 1.0).quadrics) for held in ({}, {2: 1.0})]
@@ -52,9 +53,9 @@ def limb_conditions(limb: Limb, size: float) -> Conditions:
     """
     if isinstance(limb, SerialLimb):
         return series_conditions(limb, size)
-    rng = np.random.default_rng(4)
-    near, far = (_points(series, size, rng) for series in (limb.near, limb.far))
-    return conditions_of(composed_soma(near, far))
+    if isinstance(limb, ParallelParts):
+        return joined(limb_conditions(part, size) for part in limb.parts)
+    return conditions_of(_points(limb, size, np.random.default_rng(4)))
 
 
 def closed_limb(limb: Limb, platform: Frame, size: float, driven: Collection[int] = ()) -> LimbSolutions:
@@ -67,20 +68,40 @@ def closed_limb(limb: Limb, platform: Frame, size: float, driven: Collection[int
     """
     if isinstance(limb, SerialLimb):
         return closed_series(limb, platform, driven)
-    series = (*limb.near, *(from_platform(own, platform) for own in limb.far))
-    poses = poses_under(joined(series_conditions(own, size) for own in series), size)
-    if poses is None:
+    if isinstance(limb, ParallelParts):
+        return _product(limb, [[closed_limb(part, platform, size, driven) for part in limb.parts]])
+    for place in range(1, len(limb.parts)):
+        near, far = limb.halves(place)
+        back = from_platform(far, platform)
+        poses = poses_under(joined(limb_conditions(half, size) for half in (near, back)), size)
+        if poses is not None:
+            break
+    else:
         raise MovingLimbError
     if not poses.sure:
         raise NotSerialError(f"{', '.join(limb.joints)}: roots are too near to tell them")
-    sets = [[closed_series(own, frame, driven) for own in series] for frame in poses.frames]
-    indices = tuple(sorted(index for own in series for motion in own.motions for index in motion.indices))
+    sets = [[closed_limb(half, frame, size, driven) for half in (near, back)] for frame in poses.frames]
+    return replace(_product(limb, sets), roots=poses.complex)
+
+
+def _product(limb: ParallelParts | SeriesParts, sets: Sequence[Sequence[LimbSolutions]]) -> LimbSolutions:
+    """All choices of one way a part, of each of several sets of ways."""
+    indices = tuple(sorted(_indices(limb)))
     rows = [row for parts in sets for row in _choices(parts, indices)]
     values = np.array([values for values, _ in rows]).reshape(len(rows), len(indices))
-    return LimbSolutions(limb, indices, values, np.array([bent for _, bent in rows]), poses.complex)
+    roots = sum(prod(own.roots for own in parts) for parts in sets)
+    return LimbSolutions(limb, indices, values, np.array([bent for _, bent in rows]), roots)
 
 
-def _choices(parts: list[LimbSolutions], indices: tuple[int, ...]) -> Iterator[tuple[FloatArray, float]]:
+def _indices(limb: Limb) -> Iterator[int]:
+    if isinstance(limb, SerialLimb):
+        yield from (index for motion in limb.motions for index in motion.indices)
+    else:
+        for part in limb.parts:
+            yield from _indices(part)
+
+
+def _choices(parts: Sequence[LimbSolutions], indices: tuple[int, ...]) -> Iterator[tuple[FloatArray, float]]:
     """Values of all series, one way each, and by how much their roots were made real."""
     for chosen in product(*(range(len(own.values)) for own in parts)):
         row, bent = np.empty(len(indices)), 0.0
@@ -90,24 +111,26 @@ def _choices(parts: list[LimbSolutions], indices: tuple[int, ...]) -> Iterator[t
         yield row, bent
 
 
-def _points(series: tuple[SerialLimb, ...], size: float, rng: np.random.Generator) -> ComplexArray:
-    """Soma (SAMPLES, 8), complex ones too, of poses by chance that all series between two links allow."""
-    if len(series) == 1:
-        return series_points(series[0], size, SAMPLES, rng).astype(complex)
-    conditions = joined(series_conditions(own, size) for own in series)
+def _points(limb: Limb, size: float, rng: np.random.Generator) -> ComplexArray:
+    """Soma (SAMPLES, 8), complex ones too, of poses by chance that a limb allows."""
+    if isinstance(limb, SerialLimb):
+        return series_points(limb, size, SAMPLES, rng).astype(complex)
+    if isinstance(limb, SeriesParts):
+        return reduce(composed_soma, (_points(part, size, rng) for part in limb.parts))
+    conditions = limb_conditions(limb, size)
     for freedoms in range(SIZE - 2, -1, -1):
         points = _section(conditions, freedoms, rng)
         if len(points):
             break
     else:
-        raise NotSerialError("series that meet leave their link nothing")
+        raise NotSerialError("parts side by side leave the link where they meet nothing")
     if not freedoms:
         return points[np.arange(SAMPLES) % len(points)]
     for _ in range(MOST_SECTIONS):
         if len(points) >= SAMPLES:
             return points[:SAMPLES]
         points = np.concatenate([points, _section(conditions, freedoms, rng)])
-    raise NotSerialError("series that meet leave their link too little")
+    raise NotSerialError("parts side by side leave the link where they meet too little")
 
 
 def _section(conditions: Conditions, freedoms: int, rng: np.random.Generator) -> ComplexArray:

@@ -86,7 +86,7 @@ class Poses:
 def poses_under(conditions: Conditions, size: float) -> Poses | None:
     """All poses under conditions in lengths `size`; None where these leave infinitely many.
 
-    >>> from assur.kinematics.limbs.branched import limbs_of
+    >>> from assur.kinematics.limbs.networks import limbs_of
     >>> from assur.kinematics.platforms.chains import held_series
     >>> from assur.kinematics.platforms.conditions import joined, series_conditions
     >>> from assur.model.registry import load_record
