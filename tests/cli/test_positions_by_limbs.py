@@ -60,3 +60,25 @@ def test_the_ways_are_printed_and_all_rows_where_asked(legs, capsys):
 def test_few_solutions_are_listed(capsys):
     assert main(["inverse", "planar_3rrr", "0", "0", "0", "--method", "loops"]) == 0
     assert "--all" not in capsys.readouterr().out
+
+
+@pytest.fixture(scope="module")
+def screws(tmp_path_factory):
+    """A screw that is driven by itself and swings a rod: a pose has about as many solutions as it has turns."""
+    path = str(tmp_path_factory.mktemp("limbs") / "screws.toml")
+    assert main(["new", path, "--limb", "H[z] R[x] S"]) == 0
+    return path
+
+
+def test_of_very_many_solutions_the_nearest_are_listed(screws, capsys):
+    capsys.readouterr()
+    assert main(["inverse", screws, "0", "0", "300"]) == 0
+    printed = capsys.readouterr().out
+    assert main(["inverse", screws, "0", "0", "300", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert len(told["solutions"]) > 64
+    assert f"These are the 64 nearest to home of {len(told['solutions'])}; --json lists them all." in printed
+    rows = [line for line in printed.splitlines() if line.strip().startswith(("+", "-", "0"))]
+    assert len(rows) == 64
+    assert main(["inverse", screws, "0", "0", "300", "--all"]) == 0
+    assert "nearest to home of" not in capsys.readouterr().out

@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from assur.cli.main import main
 from assur.errors import UnknownNameError
+from assur.kinematics.border import inputs_of
+from assur.kinematics.home import home_values
 from assur.kinematics.position import direct
+from assur.kinematics.status import Status
 from assur.model.registry import load_record
 
 
@@ -28,3 +32,20 @@ def test_a_problem_that_the_roots_decide_stays_with_them():
 def test_an_unknown_method_is_refused():
     with pytest.raises(UnknownNameError, match="method 'newton'"):
         direct(load_record("fivebar"), [1.0, 2.0], method="newton")
+
+
+def test_of_assemblies_that_move_a_few_are_kept_and_all_others(tmp_path):
+    """Three equal radial slides driven to turn together: one platform turns about its middle, or comes to rest."""
+    path = tmp_path / "slides.toml"
+    assert main(["new", str(path), "--limb", "R[z] {R[x]@O H[x]@O | P[x]} S"]) == 0
+    record = load_record(path)
+    inputs = inputs_of(record, home_values(record))
+    answer = direct(record, inputs)
+    moving = [solution for solution in answer if solution.status == Status.self_motion]
+    resting = [solution for solution in answer if solution.status == Status.regular]
+    assert 1 <= len(moving) <= 8
+    assert len(resting) == 2
+    assert "most of which move with what is held" in answer.right
+    place = np.array([solution.pose for solution in moving])
+    apart = np.linalg.norm(place[:, None, :2] - place[None, :, :2], axis=-1) + 1e9 * np.eye(len(place))
+    assert np.min(apart) > 1.0

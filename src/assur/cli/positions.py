@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
@@ -37,6 +36,9 @@ Positions = DirectAnswer | InverseAnswer
 ROWS = 16
 """Solutions that are listed; more are shown by limbs where these are known."""
 
+MOST_ROWS = 64
+"""Solutions that are listed where these are not; Dietmaier's platform has 40, a limb of a screw hundreds."""
+
 LETTERS = "a letter for each solution, which is not kept along paths"
 """How modes read where no sign tells them apart."""
 
@@ -65,7 +67,10 @@ def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) ->
     if isinstance(data, InverseAnswer) and data.limbs and len(data.solutions) > ROWS and not whole:
         yield from _by_limbs(record, data, style)
     elif data.solutions:
-        yield _solutions(record, data, style)
+        listed = data.solutions if whole else data.solutions[:MOST_ROWS]
+        yield _solutions(record, data, listed, style)
+        if len(listed) < len(data.solutions):
+            yield f"These are the {len(listed)} nearest to home of {len(data.solutions)}; --json lists them all."
         yield from exceeded(data)
         yield from _open_loops(data)
         yield from _remarks(data)
@@ -86,7 +91,7 @@ def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[
     """The ways of each limb in place of their product, and the row of home."""
     own = _own_row(record, data)
     if own is not None:
-        yield _solutions(record, replace(data, solutions=tuple(item for item in data.solutions if item is own)), style)
+        yield _solutions(record, data, [own], style)
     yield f"All {len(data.solutions)} are one way of each limb; --all lists them:"
     driven = zip(data.input_names, record.inputs, strict=True)
     units = {name: record.angle if one.coordinate.kind == "angle" else record.unit for name, one in driven}
@@ -129,7 +134,9 @@ def _own_row(record: Mechanism, data: Positions) -> PoseSolution | InputsSolutio
     return next(iter(home + [item for item in listed if item.mode == default]), None)
 
 
-def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableType:
+def _solutions(
+    record: Mechanism, data: Positions, listed: Sequence[PoseSolution | InputsSolution], style: Style
+) -> RenderableType:
     direct = data.problem == "direct"
     rows = [
         (
@@ -141,9 +148,9 @@ def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableTy
             tiny(item.residual),
             limits_cell(item),
         )
-        for item in data.solutions
+        for item in listed
     ]
-    usual = [item.status == "regular" and not item.limits.outside for item in data.solutions]
+    usual = [item.status == "regular" and not item.limits.outside for item in listed]
     other = "working" if direct else "assembly"
     columns = (
         "mode",
