@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur.cli.main import main
 from assur.errors import UsageError
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
@@ -13,6 +14,7 @@ from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.closure import assemble, closure_error, closure_jacobian
+from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.pose import pose_of
@@ -23,6 +25,7 @@ from assur.synthesis.drafting.copying import copied
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
 from catalogue import each
+from reordered import reordered
 
 TABLE_1 = (162.6907, -143.3209, -24.6776)
 
@@ -305,6 +308,31 @@ def test_a_file_without_closed_form_is_solved_completely(name: str, count: int, 
     assert mechanism.closed_form is None
     assert (len(found), found.complete) == (count, True)
     assert "its loops in turn" in found.right
+
+
+REORDERED = ("delta_4s", "zeng2019", "h4_robot", "three_p2us", "tsai_platform", "3-RPa(4S)")
+
+
+@pytest.mark.parametrize("name", REORDERED)
+def test_the_order_of_the_file_decides_nothing(name: str, tmp_path: Path) -> None:
+    """Rods that stay parallel have one direction, whichever end of each is written first."""
+    record = load_record(_arranged(name, tmp_path) if name.startswith("3") else name)
+    home = home_values(record)
+    for solve in (
+        lambda own: solve_by_loops(own, inputs_of(record, home)),
+        lambda own: solve_by_loops(own, pose=pose_of(record, home)),
+    ):
+        expected = solve(record)
+        assert len(expected.joints) > 0
+        for seed in range(3):
+            solutions = solve(reordered(record, seed))
+            assert (len(solutions.joints), solutions.complete) == (len(expected.joints), expected.complete)
+
+
+def _arranged(shorthand: str, folder: Path) -> Path:
+    path = folder / "mine.toml"
+    assert main(["new", str(path), shorthand]) == 0
+    return path
 
 
 def test_angles_that_a_pose_leaves_open_prove_nothing_where_they_are_not_zero(tmp_path: Path) -> None:

@@ -25,6 +25,8 @@ FloatArray = NDArray[np.float64]
 STARTS, AROUND = 96, 0.05
 """Assemblies that are looked at: so many starts by chance, and as many around home, by this share of the way."""
 
+FEW = 12
+"""Assemblies that tell already of most blocks that their screws span no one space."""
 PARASITIC = 1e-6
 """Share of the largest singular value by which platforms' twists fill no further direction."""
 
@@ -76,6 +78,11 @@ class ScrewColumns:
 
     record: MechanismRecord
     values: FloatArray
+
+    @cached_property
+    def few(self) -> ScrewColumns:
+        """The first of these assemblies."""
+        return self if len(self.values) <= FEW else ScrewColumns(self.record, self.values[:FEW])
 
     @cached_property
     def in_base(self) -> FloatArray:

@@ -7,6 +7,7 @@ with another one that does, so that what looks alike bears one name.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -19,6 +20,7 @@ from assur.kinematics.closing_blocks.by_name import in_file_order, sorted_by_nam
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
 from assur.kinematics.closure import assemble
+from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
@@ -134,8 +136,14 @@ def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
 def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> FloatArray:
     """Assemblies (N, n) at the inputs or the pose of another, in which still stands what does about home.
 
-    Where few starts by chance lead to one, as in loops of rods on balls, others begin as parts of those that are known.
+    In loops of rods on balls, to which few starts by chance lead, they are those that the loops have in turn. Where few
+    starts lead to one all the same, others begin as parts of those that are known.
     """
+    if _rods_on_balls(record):
+        turn = _in_turn(record, problem, target)
+        if turn.complete:
+            values = np.concatenate([target[None], turn.joints])
+            return values[[not other for other in otherwise(record, values)]]
     rng = np.random.default_rng(0)
     values = _closed(record, problem, target, np.concatenate([target[None], by_chance(record, STARTS, rng)]))
     for _ in range(ROUNDS):
@@ -144,6 +152,18 @@ def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> Fl
         begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
         values = np.concatenate([values, _closed(record, problem, target, begun)])
     return values
+
+
+def _rods_on_balls(record: MechanismRecord) -> bool:
+    balls = [joint for joint in record.joints.values() if joint.type.ball]
+    ends = Counter(link for joint in balls for link in (joint.parent, joint.child))
+    return any(count > 1 for link, count in ends.items() if link not in (record.base, record.platform.link))
+
+
+def _in_turn(record: MechanismRecord, problem: Problem, target: FloatArray) -> LoopSolutions:
+    if problem == "direct":
+        return solve_by_loops(record, inputs_of(record, target))
+    return solve_by_loops(record, pose=pose_of(record, target))
 
 
 def _closed(record: MechanismRecord, problem: Problem, target: FloatArray, begun: FloatArray) -> FloatArray:

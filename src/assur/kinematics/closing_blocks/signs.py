@@ -228,8 +228,8 @@ def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
 def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = None) -> BlockSign | None:
     """A block's sign, at rates of any kind or in the span (k, d) of some; None where its screws span no one space."""
     rates = np.eye(len(block.columns)) if rates is None else rates
-    if not rates.shape[1]:
-        return None
+    if not rates.shape[1] or (screws.few is not screws and _sign(block, screws.few, rates) is None):
+        return None  # what does not span one space in a few assemblies does not in all
     links = tuple(_steadiest(block, number, screws) for number in range(len(block.loops)))
     matrices = block.derivative(screws, links) @ rates
     left, sizes, _ = np.linalg.svd(matrices, full_matrices=False)

@@ -129,15 +129,22 @@ def _rods_alike(
 
 
 def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> dict[str, tuple[FloatArray, int]]:
-    """Rods between two ball joints: direction in their frame, and a number that the rods of a kept P(4S) share."""
-    together = {}
+    """Rods between two ball joints: direction in their frame, and a number that the rods of a kept P(4S) share.
+
+    These two have one direction, from the parallelogram's parent on.
+    """
+    together, begins = {}, {}
     for group in parallelograms(record).values():
         if group.kind == "P(4S)" and group.name in parallel:
-            together[_rods(record, group)[1]] = _rods(record, group)[0]
+            first, second = _rods(record, group)
+            together[second] = first
+            begins |= {first: group.parent, second: group.parent}
     lines: dict[str, FloatArray] = {}
     for link, joints in _joints_of(record).items():
         if len(joints) == 2 and all(joint.type.ball for joint in joints):
             near, far = (_point_on(joint, link) for joint in joints)
+            if begins.get(link) in (joints[1].parent, joints[1].child):
+                near, far = far, near
             lines[link] = (far - near) / np.linalg.norm(far - near)
     numbers = {link: number for number, link in enumerate(link for link in lines if link not in together)}
     return {link: (line, numbers[together.get(link, link)]) for link, line in lines.items()}
