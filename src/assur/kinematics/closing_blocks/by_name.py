@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.kinematics.closing_blocks.blocks import ClosingBlock
 from assur.model.mechanism import Coordinate, MechanismRecord
+
+if TYPE_CHECKING:
+    from assur.kinematics.closing_blocks.blocks import ClosingBlock
 
 
 @lru_cache(maxsize=64)
@@ -20,6 +23,9 @@ def sorted_by_name(record: MechanismRecord) -> MechanismRecord:
     ['A1', 'A2', 'B1', 'B2', 'P']
     """
     listed = sorted(record.coordinates, key=lambda own: (own.joint, own.index))
+    names = [item.name for item in record.inputs]
+    if (names, *map(list, (record.links, record.coordinates))) == (sorted(names), sorted(record.links), listed):
+        return record
     moved = {item.index: replace(item, index=place) for place, item in enumerate(listed)}
 
     def at(coordinate: Coordinate) -> Coordinate:

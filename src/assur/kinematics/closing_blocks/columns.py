@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.frames import Frame, frames, screws
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import whole_orientation
@@ -61,7 +62,8 @@ def open_freedoms(record: MechanismRecord) -> tuple[str, ...]:
     """
     angles = () if whole_orientation(record.platform.pose) else ANGLES
     untold = tuple(name for name in (*LENGTHS, *angles) if name not in record.platform.pose)
-    moving = motions(record, assemblies_by_chance(record), RANK_GAP).twists
+    ordered = sorted_by_name(record)  # whose assemblies are known where modes are named
+    moving = motions(ordered, assemblies_by_chance(ordered), RANK_GAP).twists
     spread = np.linalg.svd(np.concatenate([*moving], axis=1), compute_uv=False)
     moved = int(np.sum(spread > PARASITIC * spread[0]))
     return untold if moved > len(rate_names(record.platform.pose)) else ()

@@ -133,7 +133,8 @@ def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> di
 
     These two have one direction, from the parallelogram's parent on.
     """
-    together, begins = {}, {}
+    together: dict[str, str] = {}
+    begins: dict[str, str] = {}
     for group in parallelograms(record).values():
         if group.kind == "P(4S)" and group.name in parallel:
             first, second = _rods(record, group)
@@ -143,7 +144,7 @@ def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> di
     for link, joints in _joints_of(record).items():
         if len(joints) == 2 and all(joint.type.ball for joint in joints):
             near, far = (_point_on(joint, link) for joint in joints)
-            if begins.get(link) in (joints[1].parent, joints[1].child):
+            if link in begins and begins[link] in (joints[1].parent, joints[1].child):
                 near, far = far, near
             lines[link] = (far - near) / np.linalg.norm(far - near)
     numbers = {link: number for number, link in enumerate(link for link in lines if link not in together)}
