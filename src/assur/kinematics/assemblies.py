@@ -14,7 +14,7 @@ from assur.kinematics.closure import RANK_GAP, assemble, closing_system
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.limbs.solving import LimbSolutions
-from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
+from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops, staying_parallel
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
@@ -78,17 +78,21 @@ class _Assemblies:
 
 
 def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed: bool) -> LoopSolutions:
-    """Without a search, by what is complete; else what the loops give."""
-    if problem == "inverse":
-        own = inverse_by_limbs(record, given)
-        if own and own.complete:
-            return own if crossed else _uncrossed(record, own)
-        return solve_by_loops(record, pose=given, crossed=crossed)
-    turn = solve_by_loops(record, given, crossed=crossed)
-    own = None if turn.complete else direct_by_conditions(record, given)
+    """Without a search, by what is complete; else what the loops give.
+
+    Limb by limb a pose is solved soonest, but where parallelograms are to be told from crossed ones.
+    """
+    asked = {"pose": given} if problem == "inverse" else {"inputs": given}
+    turn = None
+    if problem == "direct" or parallelograms(record):
+        turn = solve_by_loops(record, **asked, crossed=crossed)
+        if turn.complete:
+            return turn
+    by_limbs = inverse_by_limbs if problem == "inverse" else direct_by_conditions
+    own = by_limbs(record, given, crossed=crossed)
     if own and own.complete:
         return own if crossed else _uncrossed(record, own)
-    return turn
+    return turn or solve_by_loops(record, **asked, crossed=crossed)
 
 
 def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutions:
@@ -97,7 +101,8 @@ def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutio
     if not names or crossed_parallelograms(record, home_values(record)):
         return solutions
     kept = [not crossed_parallelograms(record, row) for row in solutions.joints]
-    return replace(solutions, joints=solutions.joints[kept], kept=names, limbs=())
+    right = solutions.right + staying_parallel(names)
+    return replace(solutions, joints=solutions.joints[kept], right=right, kept=names, limbs=())
 
 
 def _of_self_motions(record: MechanismRecord, inputs: FloatArray) -> _Assemblies:

@@ -74,7 +74,9 @@ def test_a_draft_has_all_that_a_search_meets(drafted):
     assert len(distinct(drafted, np.concatenate([solutions.joints, met]))) == len(solutions.joints)
 
 
-@pytest.mark.parametrize("name", ["three_rps", "planar_3rrr", "planar_3rpr", "tripteron"])
+@pytest.mark.parametrize(
+    "name", ["three_rps", "planar_3rrr", "planar_3rpr", "tripteron", "tsai_platform", "linear_delta_4r", "orthoglide"]
+)
 def test_the_loops_in_turn_give_the_same(name):
     """Another way to all roots, which shares no equation: points on circles, eliminated one after another."""
     record = load_record(name)

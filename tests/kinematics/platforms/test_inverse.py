@@ -5,11 +5,14 @@ import pytest
 
 from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
+from assur.kinematics.loops.loops import solve_by_loops
+from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.pose import pose_of
-from assur.kinematics.position import inverse
+from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import distinct, search
 from assur.model.registry import load_record
 
@@ -77,3 +80,31 @@ def test_a_platform_out_of_reach_has_none_and_that_is_known(tmp_path):
     assert main(["new", str(path), "6-RUS"]) == 0
     solutions = inverse_by_limbs(load_record(path), np.array([0.0, 0.0, 1e5, 1.0, 0.0, 0.0, 0.0]))
     assert (len(solutions.joints), solutions.complete) == (0, True)
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "tsai_platform", "linear_delta_4r", "orthoglide", "three_rrrp4r"])
+def test_parallelograms_of_hinges_give_what_the_loops_have_in_turn(name):
+    """Another way to all roots, which shares no equation: points on circles, solved one after another."""
+    record = load_record(name)
+    for pose in (pose_of(record, home_values(record)), beside_home(record, np.random.default_rng(6))):
+        loops, solutions = solve_by_loops(record, pose=pose), inverse_by_limbs(record, pose)
+        assert (loops.complete, solutions.complete) == (True, True)
+        assert len(loops.joints) == len(solutions.joints)
+        assert len(distinct(record, np.concatenate([loops.joints, solutions.joints]))) == len(loops.joints)
+
+
+def test_an_own_mechanism_with_parallelograms_is_complete(tmp_path):
+    """Translations by limbs R R Pa R: the loops in turn do not give its direct problem."""
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), "--limb", "R[x] R[x] P(4R)[z] R[x]"]) == 0
+    record = load_record(path)
+    home = home_values(record)
+    for answer, problem, given in (
+        (inverse(record, pose_of(record, home)), "inverse", pose_of(record, home)),
+        (direct(record, inputs_of(record, home)), "direct", inputs_of(record, home)),
+    ):
+        assert answer.complete
+        assert "leg1.C and leg2.C and leg3.C stay parallel" in answer.right
+        met = search(record, problem, given).joints
+        uncrossed = [row for row in met if not crossed_parallelograms(record, row)]
+        assert len(answer) == len(uncrossed) == len(distinct(record, np.array(uncrossed)))

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from assur.model.mechanism import Coordinate, MechanismRecord
-
-if TYPE_CHECKING:
-    from assur.kinematics.closing_blocks.blocks import ClosingBlock
 
 
 @lru_cache(maxsize=64)
@@ -42,10 +38,3 @@ def sorted_by_name(record: MechanismRecord) -> MechanismRecord:
         angles={name: at(item) for name, item in record.angles.items()},
         home=np.array([record.home[item.index] for item in listed]),
     )
-
-
-def in_file_order(block: ClosingBlock, record: MechanismRecord) -> ClosingBlock:
-    """A block of the sorted mechanism as one of the file's."""
-    listed = sorted(record.coordinates, key=lambda own: (own.joint, own.index))
-    count = len(listed)
-    return replace(block, columns=tuple(listed[k].index if k < count else k for k in block.columns))

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closing_blocks.by_name import in_file_order, sorted_by_name
+from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
 from assur.kinematics.closure import assemble
@@ -85,7 +85,12 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
 
 
 def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
-    return replace(factor, block=in_file_order(factor.block, record)) if isinstance(factor, BlockSign) else factor
+    """A factor of the sorted mechanism as one of the file's."""
+    if not isinstance(factor, BlockSign):
+        return factor
+    listed = sorted(record.coordinates, key=lambda own: (own.joint, own.index))
+    columns = tuple(listed[k].index if k < len(listed) else k for k in factor.block.columns)
+    return replace(factor, block=replace(factor.block, columns=columns))
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,15 +6,20 @@ A hybrid limb has series that meet at one link; a leg with a ball screw has the 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
-from assur.joint_graph.frames import Frame
+from assur.joint_graph.frames import Frame, frames
+from assur.kinematics.home import home_values
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb, serial_limb
+from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,9 +28,11 @@ class ParallelParts:
 
     Attributes:
         parts: the limbs, two at least.
+        turned: (3, 3) the orientation of the second link that they keep, as hinges of a parallelogram do.
     """
 
     parts: tuple[Limb, ...]
+    turned: FloatArray | None = None
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -70,13 +77,14 @@ def series_changed(limb: Limb, change: Callable[[SerialLimb], SerialLimb]) -> Li
     """A limb with every series of joints changed."""
     if isinstance(limb, SerialLimb):
         return change(limb)
-    return type(limb)(tuple(series_changed(part, change) for part in limb.parts))
+    return replace(limb, parts=tuple(series_changed(part, change) for part in limb.parts))
 
 
 def from_platform(limb: Limb, platform: Frame) -> Limb:
     """A limb to the platform as one from the base to where it begins, the platform held at a frame."""
     if isinstance(limb, ParallelParts):
-        return ParallelParts(tuple(from_platform(part, platform) for part in limb.parts))
+        turned = None if limb.turned is None else platform[0] @ limb.turned.T
+        return ParallelParts(tuple(from_platform(part, platform) for part in limb.parts), turned)
     if isinstance(limb, SeriesParts):
         last, *others = reversed(limb.parts)
         origin = np.eye(3), np.zeros(3)
@@ -100,9 +108,26 @@ def limbs_of_middle(limbs: Sequence[Limb]) -> tuple[Limb, ...] | None:
     return (*near.parts, around) if isinstance(near, ParallelParts) else (near, around)
 
 
+def parallelograms_of_hinges(record: MechanismRecord) -> dict[frozenset[str], str]:
+    """Joints of each P(4R) that is a parallelogram at home -> its name; none where one is crossed there.
+
+    >>> from assur.model.registry import load_record
+    >>> sorted(parallelograms_of_hinges(load_record("zeng2019")).values())
+    ['Pa1', 'Pa2']
+    """
+    if crossed_parallelograms(record, home_values(record)):
+        return {}
+    groups = parallelograms(record).values()
+    return {frozenset(group.joints): group.name for group in groups if group.kind == "P(4R)"}
+
+
 @lru_cache(maxsize=64)
-def limbs_of(record: MechanismRecord) -> tuple[Limb, ...]:
+def limbs_of(record: MechanismRecord, *, crossed: bool = False) -> tuple[Limb, ...]:
     """The limbs of a mechanism, in the order of their first joints.
+
+    Args:
+        record: the mechanism.
+        crossed: whether hinges that form a parallelogram at home may also cross.
 
     Errors:
         NotSerialError: a limb that is no network of parts in series and side by side, or links that hang on others.
@@ -113,9 +138,38 @@ def limbs_of(record: MechanismRecord) -> tuple[Limb, ...]:
     """
     ends = record.base, record.platform.link
     whole = _network(record, set(record.links) - {*ends}, *ends)
+    if not crossed:
+        whole = _uncrossed(record, whole, record.base)
     limbs = whole.parts if isinstance(whole, ParallelParts) else (whole,)
     order = [*record.joints]
     return tuple(sorted(limbs, key=lambda limb: min(map(order.index, limb.joints))))
+
+
+def _uncrossed(record: MechanismRecord, limb: Limb, near: str) -> Limb:
+    """A limb that begins at a link; the orientation that each parallelogram of hinges keeps is that of home."""
+    if isinstance(limb, SerialLimb):
+        return limb
+    parts, start = [], near
+    for part in limb.parts:
+        parts.append(_uncrossed(record, part, start))
+        start = _end(record, part, start) if isinstance(limb, SeriesParts) else near
+    if isinstance(limb, ParallelParts) and frozenset(limb.joints) in parallelograms_of_hinges(record):
+        placed = frames(record, home_values(record))
+        far = _end(record, limb, near)
+        return ParallelParts(tuple(parts), placed[near][0].T @ placed[far][0])
+    return replace(limb, parts=tuple(parts))
+
+
+def _end(record: MechanismRecord, limb: Limb, start: str) -> str:
+    """The link where a limb ends."""
+    if not isinstance(limb, SerialLimb):
+        for part in limb.parts[:1] if isinstance(limb, ParallelParts) else limb.parts:
+            start = _end(record, part, start)
+        return start
+    for name in limb.joints:
+        joint = record.joints[name]
+        start = joint.child if joint.parent == start else joint.parent
+    return start
 
 
 def _network(record: MechanismRecord, links: Set[str], near: str, far: str) -> Limb:

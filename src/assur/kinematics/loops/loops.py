@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -178,11 +178,20 @@ def _about_vertical(turning: Turning) -> bool:
     return bool(turns and np.linalg.norm(turning.rotation[:2, 0]) > UPRIGHT)
 
 
+def staying_parallel(names: Sequence[str]) -> str:
+    """What is said of parallelograms that are taken to stay such.
+
+    >>> staying_parallel(["Pa1", "Pa2"])
+    '; Pa1 and Pa2 stay parallel'
+    """
+    return f"; {' and '.join(names)} stay{'s' if len(names) == 1 else ''} parallel" if names else ""
+
+
 def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSolutions:
     """The assemblies in which these parallelograms stay such."""
     record = question.record
     kept = tuple(name for name in parallelograms(record) if name in parallel)
-    note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
+    note = staying_parallel(kept)
     if parallel & {*crossed_parallelograms(record, home_values(record))}:
         return _nothing(record, False, "not proved, since a parallelogram is crossed at home")
     ways, error = [], None

@@ -68,6 +68,17 @@ def series_points(limb: SerialLimb, size: float, count: int, rng: np.random.Gene
     return soma_of((rotation, place / size))
 
 
+def orientation_conditions(rotation: FloatArray) -> Conditions:
+    """Of a platform that does not turn, in an orientation (3, 3).
+
+    >>> orientation_conditions(np.eye(3)).linear.shape
+    (3, 8)
+    """
+    stands = soma_of((rotation[None], np.zeros((1, 3))))[:, : SIZE // 2]
+    across = np.linalg.svd(stands)[2][1:]
+    return Conditions(np.concatenate([across, np.zeros_like(across)], axis=1), np.zeros((0, len(PAIRS))))
+
+
 def _drawn_series(limb: SerialLimb, size: float, count: int, rng: np.random.Generator) -> Frame:
     frames = np.broadcast_to(limb.zero[0], (count, 3, 3)), np.broadcast_to(limb.zero[1], (count, 3))
     for motion in reversed(limb.motions):

@@ -20,6 +20,7 @@ from assur.kinematics.platforms.chains import closed_series, loop_of
 from assur.kinematics.platforms.conditions import UncertainConditionsError, joined
 from assur.kinematics.platforms.limbs import closed_limb, held_limb, limb_conditions
 from assur.kinematics.platforms.poses import poses_under
+from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -28,8 +29,10 @@ AS_HELD = 1e-5
 LIMBS_OF_LOOP = 2
 
 
-def direct_by_conditions(record: MechanismRecord, inputs: FloatArray) -> LoopSolutions | None:
-    """All assemblies at printed inputs (n,) of a platform on serial limbs; None where these leave it free.
+def direct_by_conditions(record: MechanismRecord, inputs: FloatArray, *, crossed: bool = False) -> LoopSolutions | None:
+    """All assemblies at printed inputs (n,) of a platform on limbs; None where these leave it free.
+
+    Parallelograms of hinges stay such, unless `crossed` ones are asked for too.
 
     >>> from assur.model.registry import load_record
     >>> legs = np.array([1.02, 0.64, 1.06, 1.48, 1.34, 0.77])
@@ -39,7 +42,7 @@ def direct_by_conditions(record: MechanismRecord, inputs: FloatArray) -> LoopSol
     """
     question = PositionQuestion(record, "direct", inputs)
     try:
-        limbs = [held_limb(limb, question.locked) for limb in limbs_of(record)]
+        limbs = [held_limb(limb, question.locked) for limb in limbs_of(record, crossed=crossed)]
         return _by_link(question, limbs) or _by_link(question, limbs_of_middle(limbs)) or _single_loop(question, limbs)
     except (NotSerialError, MovingLimbError, UncertainConditionsError):
         return None
@@ -74,8 +77,10 @@ def _closed(
 ) -> LoopSolutions:
     """The assemblies of all choices of one way a limb, for each pose."""
     starts = [row for limbs in sets for row in _assemblies(question.record, limbs, question.locked)]
-    joints = question.closed(np.array(starts).reshape(-1, len(question.record.coordinates)))
-    if not sure or len(joints) != len(starts):
+    values = np.array(starts).reshape(-1, len(question.record.coordinates))
+    values = values[distinct(question.record, values)]  # a link may stand in two ways in which no joint is elsewhere
+    joints = question.closed(values)
+    if not sure or len(joints) != len(values):
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", looked)
     return LoopSolutions(joints, True, right, looked)
 

@@ -27,6 +27,7 @@ from assur.kinematics.platforms.conditions import (
 from assur.kinematics.platforms.limbs import closed_limb, limb_conditions
 from assur.kinematics.platforms.poses import Poses, poses_under
 from assur.kinematics.pose import error_of
+from assur.kinematics.search import distinct
 from assur.kinematics.turns import counts_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
@@ -39,8 +40,10 @@ AS_GIVEN = 1e-5
 """By how much a pose may miss what is given, in characteristic lengths and rad, before loops are closed."""
 
 
-def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions | None:
+def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool = False) -> LoopSolutions | None:
     """All assemblies at a pose (m,), limb by limb; None where the pose or the limbs are not of that kind.
+
+    Parallelograms of hinges stay such, unless `crossed` ones are asked for too.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("gough_stewart")
@@ -51,7 +54,7 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
     question = PositionQuestion(record, "inverse", pose)
     size = characteristic_length(record)
     try:
-        series = limbs_of(record)
+        series = limbs_of(record, crossed=crossed)
         given = conditions_at(partial(_drawn, record, pose, size), size)
         conditions = joined([given, *(limb_conditions(limb, size) for limb in series)])
         poses = poses_under(conditions, size)
@@ -69,6 +72,8 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray) -> LoopSolutions
     if counts_turns(record):  # a nut threaded on another turn closes as well
         starts, same = with_turns_of_home(record, starts)
         starts, bent, right = starts[same], bent[same], right + "; screws have the turns of home"
+    alike = distinct(record, starts)  # a link may stand in two ways in which no joint is elsewhere
+    starts, bent = starts[alike], bent[alike]
     joints = question.closed(starts)
     looked = sum(own.roots for limbs in sets for own in limbs)
     sure = starts[bent <= DOUBTFUL]

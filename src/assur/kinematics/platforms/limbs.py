@@ -22,6 +22,7 @@ from assur.kinematics.platforms.conditions import (
     Conditions,
     conditions_of,
     joined,
+    orientation_conditions,
     series_conditions,
     series_points,
 )
@@ -54,7 +55,8 @@ def limb_conditions(limb: Limb, size: float) -> Conditions:
     if isinstance(limb, SerialLimb):
         return series_conditions(limb, size)
     if isinstance(limb, ParallelParts):
-        return joined(limb_conditions(part, size) for part in limb.parts)
+        kept = [] if limb.turned is None else [orientation_conditions(limb.turned)]
+        return joined([*kept, *(limb_conditions(part, size) for part in limb.parts)])
     return conditions_of(_points(limb, size, np.random.default_rng(4)))
 
 
