@@ -56,6 +56,21 @@ class GraphProgram:
         answer[self._constant_rows] = self._constant_values[:, None]
         return answer
 
+    def at_state(self, record: MechanismRecord, state: NDArray[np.inexact]) -> NDArray[np.inexact]:
+        """All outputs (m, N) at a state (k, N), which may be complex.
+
+        The rates of a ball joint are its angular velocity in the parent's frame, not those of a rotation vector.
+        """
+        answer = np.empty((len(self.names), state.shape[1]), dtype=state.dtype)
+        unit = np.tile(np.eye(3).ravel(), len(joint_graph(record).turns))
+        numbers = [
+            state[place] if place < len(state) else np.full(state.shape[1], unit[place - len(state)], state.dtype)
+            for place in self.places
+        ]
+        self.straight_line.fill(answer, self._rows, np.array(numbers), dimensions(record))
+        answer[self._constant_rows] = self._constant_values[:, None]
+        return answer
+
     def derivative(
         self, record: MechanismRecord, values: FloatArray, rates: FloatArray, given: FloatArray | None = None
     ) -> FloatArray:
@@ -91,7 +106,7 @@ class GraphProgram:
 
     def matrix(self, kind: str, numbers: FloatArray, shape: tuple[int, int]) -> FloatArray:
         """Matrices (N, rows, columns) of the outputs "kind row,column" among all (m, N); others are zero."""
-        filled = np.zeros((numbers.shape[1], shape[0] * shape[1]))
+        filled = np.zeros((numbers.shape[1], shape[0] * shape[1]), dtype=numbers.dtype)
         if kind in self._entries:
             row, column = self._entries[kind]
             filled[:, row * shape[1] + column] = numbers[self.rows(kind)].T

@@ -16,6 +16,7 @@ from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
+Array = NDArray[np.inexact]
 
 
 @lru_cache(maxsize=64)
@@ -68,7 +69,8 @@ def state_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     >>> state_of(record, np.zeros((5, 1)))[:4, 0]
     array([1., 0., 1., 0.])
     """
-    state = np.empty((sum(own.numbers.size for own in _alike(record)), values.shape[1]))
+    count = sum(own.numbers.size for own in _alike(record))
+    state = np.empty((count, values.shape[1]), dtype=np.result_type(values, float))
     for own in _alike(record):
         state[own.numbers] = own.step.state(values[own.coordinates])
     return state
@@ -79,11 +81,51 @@ def changes_of(record: MechanismRecord, values: FloatArray, rates: FloatArray) -
 
     Those of a ball joint are its angular velocity in the parent's frame.
     """
-    state = state_of(record, values)
+    return changes_at(record, state_of(record, values), rates)
+
+
+def changes_at(record: MechanismRecord, state: Array, rates: Array) -> Array:
+    """The same at a state (k, b), which may be complex."""
     changes = np.empty_like(state)
     for own in _alike(record):
         changes[own.numbers] = own.step.changes(state[own.numbers], rates[own.coordinates])
     return changes
+
+
+def unit_state(record: MechanismRecord, state: Array) -> Array:
+    """A state (k, b) near one, complex or not, in which cosines, sines and quaternions have a sum of squares 1.
+
+    >>> from assur.model.registry import load_record
+    >>> unit_state(load_record("fivebar"), np.tile([[1.0], [0.1]], (5, 1)))[:2, 0].round(6).tolist()
+    [0.995037, 0.099504]
+    """
+    answer = state.copy()
+    for own in _alike(record):
+        if own.step.kind in ("turn", "ball"):
+            answer[own.numbers] /= np.sqrt(np.sum(state[own.numbers] ** 2, axis=0))
+    return answer
+
+
+def values_of(record: MechanismRecord, state: FloatArray) -> FloatArray:
+    """Joint values (n, b) of a state (k, b), angles within half a turn.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("delta_4s")
+    >>> values = np.linspace(-0.9, 0.9, len(record.coordinates))[:, None]
+    >>> bool(np.allclose(values_of(record, state_of(record, values)), values))
+    True
+    """
+    answer = np.empty((len(record.coordinates), state.shape[1]))
+    for own in _alike(record):
+        numbers = state[own.numbers]
+        if own.step.kind == "turn":
+            answer[own.coordinates[0]] = np.arctan2(numbers[1], numbers[0])
+        elif own.step.kind == "ball":
+            turned = rotations.from_quaternion(np.moveaxis(numbers, 0, -1))
+            answer[own.coordinates] = np.moveaxis(rotations.to_vector(turned), -1, 0)
+        else:
+            answer[own.coordinates[0]] = numbers[-1]
+    return answer
 
 
 def joint_state(joint_type: JointType, values: FloatArray) -> FloatArray:

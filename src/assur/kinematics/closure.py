@@ -130,7 +130,7 @@ def _loop_twists(configuration: Configuration) -> Outputs:
     }
 
 
-def _gaps_and_rates(configuration: Configuration) -> Outputs:
+def gaps_and_rates(configuration: Configuration) -> Outputs:
     """Gaps, and how fast they change: of each loop lengths first, then angular velocities of the turn that is left."""
     rates = {
         f"derivative {6 * index + (row + 3) % 6},{column}": number
@@ -168,7 +168,7 @@ def _gap_rates(configuration: Configuration, cut: Joint) -> Iterator[tuple[int, 
 
 def closing_numbers(configuration: Configuration) -> Outputs:
     """Gaps and their exact derivative, the platform's frame and twists: what closes the loops, also at a pose."""
-    return {**_gaps_and_rates(configuration), **platform_numbers(configuration), **platform_moves(configuration)}
+    return {**gaps_and_rates(configuration), **platform_numbers(configuration), **platform_moves(configuration)}
 
 
 def closing_system(
@@ -192,7 +192,7 @@ def closing_system(
     (True, (1, 8, 5))
     """
     length, count = characteristic_length(record), len(record.coordinates)
-    system = program(record, _gaps_and_rates if poses is None else closing_numbers)
+    system = program(record, gaps_and_rates if poses is None else closing_numbers)
     numbers = system(record, values)
     loops = len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)
