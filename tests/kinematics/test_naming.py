@@ -10,7 +10,7 @@ from assur.errors import UnknownNameError
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import is_of_mode, lettered, without_letter
 from assur.kinematics.named_signs import named_signs
-from assur.kinematics.naming import mode_names, sign_meanings, signs_at
+from assur.kinematics.naming import described_signs, mode_names, sign_meanings, signs_at
 from assur.kinematics.position import direct, inverse
 from assur.model.mechanism import Modes
 from assur.model.registry import load_record
@@ -85,3 +85,18 @@ def test_a_mode_that_is_given_by_a_number_is_refused_with_its_name(problem):
         solve(record, given, "99", method="search")
     with pytest.raises(UnknownNameError, match="modes of one problem are listed by"):
         solve(record, [given, given], "3", method="search")
+
+
+def test_letters_of_signs_are_no_names_of_the_file(nameless):
+    """An offset e1, as drafts have, leaves e1 to itself."""
+    free = [sign.letter for sign in described_signs(nameless, "direct")]
+    own = nameless.parameters["l1"] if "l1" in nameless.parameters else next(iter(nameless.parameters.values()))
+    other = dataclasses.replace(nameless, parameters={**nameless.parameters, "e1": own})
+    assert free == ["e1"]
+    assert [sign.letter for sign in described_signs(other, "direct")] == ["epsilon1"]
+    assert [sign.letter for sign in described_signs(other, "inverse")] == ["s1", "s2", "s3"]
+
+
+def test_a_quantity_of_the_file_names_itself_and_the_joints_that_it_reads():
+    (first, *_) = described_signs(load_record("zeng2019"), "direct")
+    assert (first.letter, first.written, first.places) == ("e1", True, ("B1", "C1"))

@@ -15,6 +15,7 @@ from assur.cli.quantities import unit_of
 from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.kinematics.naming import described_signs
 from assur.mechanism import Mechanism
 from assur.results.answers.position import (
     DirectAnswer,
@@ -84,7 +85,7 @@ def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) ->
         yield f"It is {data.architecture}."
     if data.solutions and not data.limits_stated:
         yield "No limits are stated."
-    yield from _modes(data)
+    yield from _modes(record, data)
 
 
 def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[RenderableType]:
@@ -290,7 +291,7 @@ def _completeness(record: Mechanism, data: Positions) -> str:
     return f"Only this mode was asked for, of {model}{how}."
 
 
-def _modes(data: Positions) -> Iterable[str]:
+def _modes(record: Mechanism, data: Positions) -> Iterable[str]:
     """How the modes read: their signs, the letters after them, their crossed parallelograms."""
     texts = [item.mode for item in data.solutions]
     parts = [f"the signs of {', '.join(data.signs)}"] if data.signs else []
@@ -299,6 +300,7 @@ def _modes(data: Positions) -> Iterable[str]:
     if any("~" in text for text in texts):
         parts.append("after ~ a crossed parallelogram")
     yield f"mode: {', '.join(parts) or 'there is one'}"
-    yield from (f"  {name} is +: {meaning}" for name, meaning in data.signs.items() if not meaning.endswith(" > 0"))
+    signs = described_signs(record, "direct" if data.problem == "direct" else "inverse") if data.signs else ()
+    yield from (f"  {sign.name} ({sign.letter}) is +: {sign.meaning}" for sign in signs if not sign.written)
     if data.home_by:
         yield data.home_by

@@ -121,6 +121,7 @@ def draw_frame(
         end = view(at + size * axis)
         if np.linalg.norm(end - start) < 3.0:
             _end_on(page, start, towards=float(axis @ view.camera.toward) > 0)
+            letters.avoid_disc(start, 3.2)
         else:
             page.arrow(start, end, BLUE, 0.9, 11, head=6)
             letters.avoid(np.array([start, end]))

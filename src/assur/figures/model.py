@@ -10,6 +10,7 @@ from assur.figures.canvas import View, fitted
 from assur.figures.context import Context
 from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures, formula_text
 from assur.figures.letters import PRIME, letter
+from assur.figures.mode_letters import add_signs, shown_signs, signs_said
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind, always
@@ -26,9 +27,10 @@ def _caption(context: Context) -> str:
     angles = (
         "" if not record.angles else f" Angles {', '.join(letter(name) for name in record.angles)} are joint values."
     )
+    signs = signs_said(shown_signs(record))
     return (
         "Kinematic model: points, base frame O-XYZ, moving frame O'-X'Y'Z', inputs and lengths."
-        f"{angles}{context.schematic_note}"
+        f"{angles}{f' Letters in frames are signs of modes: {signs}.' if signs else ''}{context.schematic_note}"
     )
 
 
@@ -60,6 +62,7 @@ def _draw(context: Context) -> Drawing:
     if all(np.linalg.norm(origin - at) > 1e-9 for at in lettered(skeleton).values()):
         letters.add(view(origin), letter("O'"), clear=4.0)
     _name_lengths(view, skeleton, letters)
+    add_signs(view, skeleton, letters, shown_signs(context.record))
     letters.place()
     return Drawing(page.figure, _data(skeleton, context))
 
@@ -91,6 +94,7 @@ def _data(skeleton: Skeleton, context: Context) -> dict[str, Any]:
             )
         ),
         "lengths": {f"{rod.ends[0]}-{rod.ends[1]}": rod.length for rod in skeleton.rods if rod.length},
+        "signs": {sign.letter: sign.places for sign in shown_signs(context.record)},
         "note": context.schematic_note.strip(),
     }
 

@@ -62,8 +62,9 @@ class Letters:
         self._boxes.append((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
 
     def add(self, at: FloatArray, text: str, clear: float = 3.0, **style: Any) -> None:
-        """A label at a distance of at least `clear` points from a point (2,)."""
-        self._labels.append(_Label(np.reshape(at, (1, 2)), self._text(at, text, style), clear))
+        """A label at a distance of at least `clear` points from a point (2,), or one of (k, 2), the first rather."""
+        anchors = np.reshape(at, (-1, 2))
+        self._labels.append(_Label(anchors, self._text(anchors[0], text, style), clear))
 
     def add_along(self, ends: FloatArray, text: str, clear: float = 3.0, **style: Any) -> None:
         """A label beside the line between two ends (2, 2), nearer to it than to any other line."""

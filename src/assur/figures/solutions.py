@@ -13,13 +13,15 @@ from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import unit_after
 from assur.figures.labels import label
-from assur.figures.letters import mathematics
+from assur.figures.letters import letter, mathematics
+from assur.figures.mode_letters import add_signs, shown_signs, signs_said
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
+from assur.kinematics.naming import DescribedSign
 from assur.model.pose import QUATERNION, is_angle
 from assur.results.typeset_text import minus
 from assur.scene.camera import oblique, plane
@@ -82,7 +84,9 @@ def _caption(context: Context) -> str:
     rest = "" if found.complete else f" They are {found.right}."
     if len(found) > MOST:
         rest = f" Drawn are the {MOST} that are nearest to the first.{rest}"
-    return f"{what} at {names}, with the coordinates of O' and the assembly mode.{rest}"
+    signs = signs_said(_signs(context))
+    said = f" Signs of the mode: {signs}, with joints as in the kinematic model." if signs else ""
+    return f"{what} at {names}, with the coordinates of O' and the assembly mode.{rest}{said}"
 
 
 def _printed(context: Context, value: float, kind: str) -> str:
@@ -134,14 +138,17 @@ def _panel(context: Context, page: Canvas, view: View, ghosts: list[Ghost]) -> N
         )
     for ghost in ghosts:
         page.disc(view(ghost.origin), 1.6, ghost.colour, ghost.colour, order=15)
+        letters.avoid_disc(view(ghost.origin), 1.6)
         letters.add(view(ghost.origin), str(ghost.number), clear=4.0, color=ghost.colour, weight="bold")
+    if len(_signs(context)) > 1:  # one alone is that of the whole
+        add_signs(view, ghosts[0].skeleton, letters, _signs(context))
     letters.place()
 
 
 def _table(context: Context, page: Canvas, ghosts: list[Ghost], width: float, height: float) -> None:
     """Coordinates of every solution, in its colour."""
     record = context.record
-    heads = ["", *(_head(context, name) for name in record.platform.pose), "mode"]
+    heads = ["", *(_head(context, name) for name in record.platform.pose), _mode_head(context)]
     step = min(34.0, (width - 24.0) / len(heads))
     left = (width - step * (len(heads) - 1)) / 2
     top = height - 3.0
@@ -167,10 +174,22 @@ def _head(context: Context, name: str) -> str:
     return f"${mathematics(name) or name}$$\\,${unit}" if unit else f"${mathematics(name) or name}$"
 
 
+def _mode_head(context: Context) -> str:
+    """Title of the column of modes, with the letters of its signs."""
+    names = [letter(sign.letter) for sign in _signs(context)]
+    short = names if len(names) < 4 else [names[0], "...", names[-1]]
+    return f"mode ({', '.join(short)})" if names else "mode"
+
+
+def _signs(context: Context) -> tuple[DescribedSign, ...]:
+    return shown_signs(context.record, ["direct"])
+
+
 def _data(context: Context, ghosts: list[Ghost]) -> dict[str, Any]:
     return {
         "unit": context.record.unit,
         "inputs": context.assemblies.given,
+        "signs": {sign.letter: sign.places for sign in _signs(context)},
         "complete_for": context.assemblies.complete_for,
         "solutions": [
             {

@@ -11,7 +11,7 @@ from assur.joint_graph.frames import frames
 from assur.joint_graph.points import point
 from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.home import home_values
-from assur.kinematics.naming import sign_meanings, signs_at
+from assur.kinematics.naming import described_signs, sign_meanings, signs_at
 from assur.mechanism import load
 from assur.model.mechanism import Modes
 from assur.model.registry import load_record
@@ -51,9 +51,9 @@ def test_every_sign_has_a_name_of_its_own_and_a_sentence(drafted):
 def test_answers_print_what_a_plus_means(drafted, capsys):
     assert main(["direct", str(drafted.file), "0", "10", "0"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    name, meaning = next(iter(sign_meanings(drafted, "direct").items()))
-    assert f"mode: the signs of {name}" in said
-    assert f"{name} is +: {meaning}" in said
+    (sign,) = described_signs(drafted, "direct")
+    assert f"mode: the signs of {sign.name}" in said
+    assert f"{sign.name} ({sign.letter}) is +: {sign.meaning}" in said
 
 
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
@@ -86,5 +86,5 @@ def test_a_draft_says_what_the_signs_mean_that_it_does_not_name(drafted):
     text = Path(drafted.file).read_text(encoding="utf-8")
     for problem, name in (("inverse", "working mode"), ("direct", "assembly mode")):
         if not (drafted.modes.working if problem == "inverse" else drafted.modes.assembly):
-            for sign, meaning in sign_meanings(drafted, problem).items():
-                assert f"#     {name}, {sign}: {meaning}" in text
+            for sign in described_signs(drafted, problem):
+                assert f"#     {name}, {sign.name} ({sign.letter}): {sign.meaning}" in text

@@ -8,6 +8,7 @@ from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border,
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import given_words
 from assur.kinematics.modes import Problem
+from assur.kinematics.naming import described_signs
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
@@ -80,13 +81,32 @@ def _modes(record: MechanismRecord) -> list[Table]:
     ):
         for place, (name, formula) in enumerate(signs.items()):
             rows.append((what, named_formula(name), formula.text, default[place : place + 1] or None))
+    own = _signs_of_blocks(record)
     if not rows:
-        return []
+        return own
     caption = (
         "A branch is named by the signs of these quantities of the joint graph, in this order: working modes are those "
         "of the inverse problem, assembly modes those of the direct problem."
     )
-    return [Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption)]
+    return [Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption), *own]
+
+
+def _signs_of_blocks(record: MechanismRecord) -> list[Table]:
+    """The signs that the joint graph gives to modes for which the file names no quantities."""
+    kinds: dict[Problem, str] = {"inverse": "working", "direct": "assembly"}
+    rows = tuple(
+        (kind, named_formula(sign.letter), sign.name, sign.meaning)
+        for problem, kind in kinds.items()
+        for sign in described_signs(record, problem)
+        if not sign.written
+    )
+    if not rows:
+        return []
+    caption = (
+        "Modes for which the file names no quantities are named by the signs of closing blocks of the joint graph, in "
+        "this order; each changes at singularities alone. Letters are those of the figures."
+    )
+    return [Table("Signs of the joint graph", ("mode", "letter", "sign", "+ where"), rows, caption)]
 
 
 def _direct(findings: Findings) -> Section:

@@ -8,6 +8,7 @@ from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.style import texts_of, titles_of
 from assur.kinematics.limits import NO_LIMITS
 from assur.kinematics.modes import Problem
+from assur.kinematics.naming import described_signs
 from assur.kinematics.status import Status
 from assur.report.findings import Findings
 from assur.report.sections.proved import right
@@ -46,7 +47,9 @@ def _listed(findings: Findings, data: Positions) -> Table:
     columns = ("mode", *titles_of(record, style, direct=direct), other, *after)
     marks = tuple("" if Status[item.status] <= Status.near_singular else "singular" for item in data.solutions)
     title = f"Solutions of the {data.problem} problem"
-    return Table(title, columns, rows, " ".join(_caption(data)), marks, known_by=right(findings, data.problem)[0])
+    return Table(
+        title, columns, rows, " ".join(_caption(findings, data)), marks, known_by=right(findings, data.problem)[0]
+    )
 
 
 def _limits(outside: Sequence[ExceededLimit]) -> str:
@@ -54,7 +57,7 @@ def _limits(outside: Sequence[ExceededLimit]) -> str:
     return "; ".join(f"{limit.limit}: by {short(limit.by)} {limit.unit}" for limit in outside) or "within"
 
 
-def _caption(data: Positions) -> Iterator[str]:
+def _caption(findings: Findings, data: Positions) -> Iterator[str]:
     yield "All real solutions." if data.complete else "What was found; it is not proved to be all."
     if not data.limits_stated:
         yield f"{NO_LIMITS[0].upper()}{NO_LIMITS[1:]}."
@@ -64,7 +67,8 @@ def _caption(data: Positions) -> Iterator[str]:
     )
     if any(item.mode.partition("~")[0].strip("+-0") for item in data.solutions):
         yield "A letter tells solutions of the same signs apart; it is not kept along paths."
-    for name, meaning in data.signs.items():
+    tabled = {sign.name for sign in described_signs(findings.record, data.problem) if not sign.written}
+    for name, meaning in ((name, meaning) for name, meaning in data.signs.items() if name not in tabled):
         yield f"{name} is + where {meaning}."
     if data.home_by:
         yield f"{data.home_by[0].upper()}{data.home_by[1:]}."

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from assur.errors import UsageError
 from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.naming import sign_meanings
+from assur.kinematics.naming import described_signs
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
@@ -130,8 +130,8 @@ def _with_names(made: Attempt) -> str:
     lines = []
     for problem, name in PROBLEMS.items():
         if not sign_names(made.record, problem):
-            meanings = sign_meanings(made.record, problem)
-            lines += [f"#     {name}, {sign}: {meaning}" for sign, meaning in meanings.items()]
+            signs = described_signs(made.record, problem)
+            lines += [f"#     {name}, {sign.name} ({sign.letter}): {sign.meaning}" for sign in signs]
     head = "# Modes that are not named above bear the signs of the joint graph. + is as drawn:"
     return "\n".join([made.text.rstrip(), "", head, *lines, ""]) if lines else made.text
 
