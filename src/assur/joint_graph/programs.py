@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.configuration import Configuration
 from assur.joint_graph.geometry import geometry
-from assur.joint_graph.state import ball_rates, changes_of, state_names, state_of
+from assur.joint_graph.state import Numbers, ball_rates, changes_of, state_names, state_of
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.dual import Dual
@@ -56,7 +56,7 @@ class GraphProgram:
         answer[self._constant_rows] = self._constant_values[:, None]
         return answer
 
-    def at_state(self, record: MechanismRecord, state: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    def at_state(self, record: MechanismRecord, state: Numbers) -> Numbers:
         """All outputs (m, N) at a state (k, N), which may be complex.
 
         The rates of a ball joint are its angular velocity in the parent's frame, not those of a rotation vector.
@@ -104,7 +104,7 @@ class GraphProgram:
             parts.append(given[places[~own & ~turning] - count - balls])
         return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
-    def matrix(self, kind: str, numbers: FloatArray, shape: tuple[int, int]) -> FloatArray:
+    def matrix(self, kind: str, numbers: Numbers, shape: tuple[int, int]) -> Numbers:
         """Matrices (N, rows, columns) of the outputs "kind row,column" among all (m, N); others are zero."""
         filled = np.zeros((numbers.shape[1], shape[0] * shape[1]), dtype=numbers.dtype)
         if kind in self._entries:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
-Array = NDArray[np.inexact]
+Numbers = TypeVar("Numbers", NDArray[np.float64], NDArray[np.complex128])
 
 
 @lru_cache(maxsize=64)
@@ -61,8 +62,8 @@ def _alike(record: MechanismRecord) -> tuple[_Alike, ...]:
     )
 
 
-def state_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """The state (k, b), in the order of `state_names`, of joint values (n, b).
+def state_of(record: MechanismRecord, values: Numbers) -> Numbers:
+    """The state (k, b), in the order of `state_names`, of joint values (n, b), complex ones too.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
@@ -84,7 +85,7 @@ def changes_of(record: MechanismRecord, values: FloatArray, rates: FloatArray) -
     return changes_at(record, state_of(record, values), rates)
 
 
-def changes_at(record: MechanismRecord, state: Array, rates: Array) -> Array:
+def changes_at(record: MechanismRecord, state: Numbers, rates: Numbers) -> Numbers:
     """The same at a state (k, b), which may be complex."""
     changes = np.empty_like(state)
     for own in _alike(record):
@@ -92,7 +93,7 @@ def changes_at(record: MechanismRecord, state: Array, rates: Array) -> Array:
     return changes
 
 
-def unit_state(record: MechanismRecord, state: Array) -> Array:
+def unit_state(record: MechanismRecord, state: Numbers) -> Numbers:
     """A state (k, b) near one, complex or not, in which cosines, sines and quaternions have a sum of squares 1.
 
     >>> from assur.model.registry import load_record

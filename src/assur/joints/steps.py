@@ -36,7 +36,7 @@ class Step:
         kind: what it is called.
         kinds: of its coordinates.
         numbers: names of the numbers that say where it stands.
-        state: these numbers (k, ...) of joint values (c, ...).
+        state: these numbers (k, ...) of joint values (c, ...), real or complex.
         changes: how fast the numbers (k, ...) change at rates (c, ...); a ball's are its angular velocity in the frame
             before the step.
         motion: turn and shift by them along a unit vector; a screw advances by a length per rad.
@@ -47,8 +47,8 @@ class Step:
     kind: Literal["turn", "slide", "screw", "ball"]
     kinds: tuple[CoordinateKind, ...]
     numbers: tuple[str, ...]
-    state: Callable[[FloatArray], FloatArray]
-    changes: Callable[[FloatArray, FloatArray], FloatArray]
+    state: Callable[[Any], Any]
+    changes: Callable[[Any, Any], Any]
     motion: Callable[[Vector, Any, tuple[Any, ...]], Motion]
     twists: Callable[[Vector, Any, Matrix], tuple[Twist, ...]]
     direction: int = 0

@@ -17,6 +17,7 @@ from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops, staying_parallel
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Method, Problem
+from assur.kinematics.monodromy.assemblies_by_monodromy import direct_by_monodromy
 from assur.kinematics.near_home import nearest_first
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
@@ -158,10 +159,18 @@ def _assemblies(
         found = search(record, problem, given)
     except Interrupted as stop:
         found, interrupted = stop.answer, True
-    last = (
-        f"of which number {found.last_new} found the last new one" if len(found.joints) else "none of which found one"
+    last = f"{found.converged} of which converged, number {found.last_new} to the last new one"
+    reason = (
+        f"not proved: a search from {found.starts} starts, {last if len(found.joints) else 'none of which found one'}"
     )
-    reason = f"not proved: a search from {found.starts} starts, {last}"
+    if problem == "direct" and method == "auto" and not interrupted:
+        try:
+            whole = direct_by_monodromy(record, given, found.joints)
+        except KeyboardInterrupt:
+            whole, interrupted = None, True
+        if whole:
+            whole = whole if crossed else _uncrossed(record, whole)
+            return _Assemblies(whole.joints, True, whole.right, np.nan, bool(whole.kept))
     if not found.settled:
         rows = _without_motions(record, problem, found.joints)
         if len(rows) < len(found.joints):

@@ -47,13 +47,15 @@ SAME = 1e-5
 class Search:
     """Assemblies (K, coordinates) that were found from `starts` starts, in the order of their first finding.
 
-    `last_new` is the number of the start that found the last new one: far below `starts`, more are unlikely.
+    `converged` of them led to an assembly. `last_new` is the number of the start that found the last new one: far below
+    `starts`, more are unlikely.
     `nearest` is the smallest gap that any start came to, in length units; `settled` says whether the search ended
     because it met nothing new any more.
     """
 
     joints: FloatArray
     starts: int
+    converged: int
     last_new: int
     nearest: float
     settled: bool
@@ -80,7 +82,7 @@ def _searched(
     record: MechanismRecord, problem: Problem, given: FloatArray, rng: np.random.Generator, work: WorkStage
 ) -> Search:
     known = np.empty((0, len(record.coordinates)))
-    starts, last, nearest, again = 0, 0, np.inf, 0
+    starts, converged, last, nearest, again = 0, 0, 0, np.inf, 0
     while starts < MOST and again < _enough(known):
         begun = _starts(record, known, rng)
         try:
@@ -92,18 +94,18 @@ def _searched(
         except KeyboardInterrupt:
             if not starts:
                 raise
-            raise Interrupted(Search(known, starts, last, nearest, False)) from None
+            raise Interrupted(Search(known, starts, converged, last, nearest, False)) from None
         counted, same = with_turns_of_home(record, assembled.values, _held(record, problem))
         closed = np.flatnonzero(assembled.closed & same)
         joints = np.concatenate([known, counted[closed]])
         kept = distinct(record, joints)
-        again += len(closed)
+        again, converged = again + len(closed), converged + len(closed)
         if len(kept) > len(known):
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
         known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + STARTS
         work.at(starts, MOST, f"{len(known)} assemblies so far")
-    return Search(known, starts, last, nearest, again >= _enough(known))
+    return Search(known, starts, converged, last, nearest, again >= _enough(known))
 
 
 def _enough(known: FloatArray) -> int:

@@ -1,4 +1,4 @@
-"""Whether numbers at many places are the values of one rational function."""
+"""Whether numbers at many places on a circle are the values of one rational function."""
 
 from __future__ import annotations
 
@@ -7,26 +7,27 @@ from numpy.typing import NDArray
 
 ComplexArray = NDArray[np.complex128]
 
-MORE = 4
-"""Places beyond as many as a rational function of a degree has coefficients."""
-FITS = 1e-7
+SHARE = 4
+"""So many times as many places as the degree: with half of them two branches of a root may look like one function."""
+FITS = 1e-8
 """Smallest singular value, all conditions being of length 1, of a function that fits."""
 
 
-def rational_degree(places: ComplexArray, values: ComplexArray) -> int | None:
-    """The least degree of numerator and denominator of a rational function with these values (N,) at places (N,).
+def rational_degree(values: ComplexArray) -> int | None:
+    """The least degree of numerator and denominator of a rational function with these values (N,) at circle(N).
 
-    None where there is none that `MORE` places would not refute. Polynomials are orthogonalised on the places, since
-    powers are nearly dependent (P. Brubeck, Y. Nakatsukasa, L. N. Trefethen 2021).
+    None where there is none of a degree below a quarter of N. On a circle no power is small where others are not, so
+    that numbers without a law do not fit.
 
-    >>> places = np.exp(1j * np.arange(16)) * np.linspace(0.5, 1.0, 16)
-    >>> rational_degree(places, (1 + places**2) / (3 - places))
+    >>> z = circle(16)
+    >>> rational_degree((1 + z**2) / (3 - z))
     2
-    >>> rational_degree(places, np.sqrt(places)) is None
+    >>> rational_degree(np.sqrt(z)) is None
     True
     """
-    for degree in range((len(places) - MORE - 2) // 2 + 1):
-        basis = _orthogonal_polynomials(places, degree)
+    powers = circle(len(values))[:, None] ** np.arange(len(values) // SHARE)
+    for degree in range(powers.shape[1]):
+        basis = powers[:, : degree + 1]
         rows = np.concatenate([basis, -values[:, None] * basis], axis=1)
         rows /= np.linalg.norm(rows, axis=1, keepdims=True)
         if np.linalg.svd(rows, compute_uv=False)[-1] < FITS:
@@ -34,13 +35,7 @@ def rational_degree(places: ComplexArray, values: ComplexArray) -> int | None:
     return None
 
 
-def _orthogonal_polynomials(places: ComplexArray, degree: int) -> ComplexArray:
-    """Values (N, degree + 1) of polynomials orthogonal on the places."""
-    columns = [np.ones(len(places), dtype=complex)]
-    for _ in range(degree):
-        new = places * columns[-1]
-        for _ in range(2):
-            for column in columns:
-                new = new - column * (column.conj() @ new) / len(places)
-        columns.append(new * np.sqrt(len(places)) / np.linalg.norm(new))
-    return np.stack(columns, axis=1)
+def circle(count: int) -> ComplexArray:
+    """Places (count,) all around the unit circle."""
+    places: ComplexArray = np.exp(2j * np.pi * np.arange(count) / count)
+    return places

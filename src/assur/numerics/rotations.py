@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,7 +171,7 @@ def from_quaternion(quaternion: FloatArray) -> FloatArray:
     return _combined(quaternion[..., 1:], 2.0 * quaternion[..., 0], 2.0)
 
 
-def quaternion_rates(quaternion: Vectors, angular: Vectors) -> Vectors:
+def quaternion_rates(quaternion: NDArray[Any], angular: NDArray[Any]) -> NDArray[Any]:
     """Rates (..., 4) of quaternions (..., 4) at angular velocities (..., 3) in the base frame: q' = (0, w) q / 2.
 
     >>> quaternion_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array([0.0, 0.0, 2.0]))
@@ -179,8 +179,7 @@ def quaternion_rates(quaternion: Vectors, angular: Vectors) -> Vectors:
     """
     scalar, vector = quaternion[..., :1], quaternion[..., 1:]
     along = -np.sum(angular * vector, axis=-1, keepdims=True)
-    rates: Vectors = 0.5 * np.concatenate([along, scalar * angular + cross(angular, vector)], axis=-1)
-    return rates
+    return np.asarray(0.5 * np.concatenate([along, scalar * angular + cross(angular, vector)], axis=-1))
 
 
 def to_quaternion(rotation: FloatArray) -> FloatArray:

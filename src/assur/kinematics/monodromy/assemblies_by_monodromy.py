@@ -15,11 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.state import state_of, values_of
-from assur.kinematics.monodromy.complex_loops import ComplexLoops
+from assur.joint_graph.turns import screws_among
+from assur.kinematics.border import held_inputs
+from assur.kinematics.home import home_values
+from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
+from assur.kinematics.monodromy.complex_loops import ComplexLoops, NoMonodromyError
 from assur.kinematics.monodromy.paths import followed
+from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.monodromy import random_complex
-from assur.numerics.rational_functions import rational_degree
+from assur.numerics.rational_functions import circle, rational_degree
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -30,12 +36,13 @@ REAL = 1e-6
 """Imaginary part of a state, its numbers being of size 1, of an assembly that is tried as a real one."""
 REGULAR = 1e-7
 """Ratio of singular values from which on an assembly can be followed."""
-SIZES = 1.6
-"""Logarithm of how much farther than usual, or nearer, the corners of loops are: nobody knows where assemblies meet."""
-TOGETHER, ROUNDS = 8, 12
+SIZES = 4.0
+"""Logarithm of how much farther away, or nearer, than 1 corners of loops are. With half of it one five-bar in ten was
+called complete with one of its two assemblies: no way went round where these meet."""
+TOGETHER, ROUNDS = 16, 12
 """Loops that are gone round at once, until none of them leads to anything new; and how often at most."""
-MOST = 64
-"""Assemblies up to which all are followed: of more a search knows too few, and to go on would take minutes."""
+MOST = 4000
+"""Assemblies times the square of the joint coordinates up to which all are followed: with more it takes minutes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +79,7 @@ def assemblies_by_monodromy(
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
-    >>> record = load_record("planar_3rrr")
+    >>> record = load_record("planar_3rpr")
     >>> home = home_values(record)
     >>> solutions = assemblies_by_monodromy(record, home[list(record.input_indices)], home[None])
     >>> solutions.complex, solutions.complete
@@ -90,7 +97,7 @@ def assemblies_by_monodromy(
     degree = None
     for _ in range(ROUNDS):
         more = _round_loops(loops, state, base, rng)
-        if more.shape[1] > MOST:
+        if _too_many(record, more.shape[1]):
             break
         quiet, state = more.shape[1] == state.shape[1], more
         degree = _trace_degree(loops, state, base, rng) if quiet else None
@@ -101,6 +108,37 @@ def assemblies_by_monodromy(
     joints = values_of(record, ends.state[:, real].real).T
     lost = int(np.sum(~ends.arrived & ~ends.infinite))
     return MonodromySolutions(joints, state.shape[1], int(np.sum(ends.infinite)), degree, lost)
+
+
+@stage("assemblies followed round loops of complex inputs")
+def direct_by_monodromy(record: MechanismRecord, inputs: FloatArray, known: FloatArray) -> LoopSolutions | None:
+    """All assemblies at printed inputs (k,), those that a search knows (K, n) among them; None where that is not known.
+
+    >>> from assur.kinematics.search import search
+    >>> from assur.model.registry import load_record
+    >>> record, inputs = load_record("fivebar"), np.radians([127.0, 53.0])
+    >>> print(direct_by_monodromy(record, inputs, search(record, "direct", inputs).joints).right)
+    2 complex assemblies, to which loops of complex inputs lead from those of a search, with a trace of degree 4
+    """
+    question = PositionQuestion(record, "direct", inputs)
+    if not len(known) or _too_many(record, len(known)) or np.any(screws_among(record)):
+        return None
+    held = held_inputs(record, home_values(record), inputs)[list(record.input_indices)]
+    try:
+        solutions = assemblies_by_monodromy(record, held, known)
+    except NoMonodromyError:
+        return None
+    if solutions is None or not solutions.complete:
+        return None
+    joints = question.closed(solutions.joints)
+    if len(distinct(record, np.concatenate([joints, known]))) != len(joints):
+        return None  # a known one is singular, so that no path leads there
+    right = f"{solutions.complex} complex assemblies, to which loops of complex inputs lead from those of a search, "
+    return LoopSolutions(joints, True, f"{right}with a trace of degree {solutions.degree}", solutions.complex)
+
+
+def _too_many(record: MechanismRecord, count: int) -> bool:
+    return count * len(record.coordinates) ** 2 > MOST
 
 
 def _anywhere(rng: np.random.Generator, count: int) -> ComplexArray:
@@ -136,16 +174,17 @@ def _round_loops(loops: ComplexLoops, state: ComplexArray, base: complex, rng: n
 
 
 def _trace_degree(loops: ComplexLoops, state: ComplexArray, base: complex, rng: np.random.Generator) -> int | None:
-    """Degree of the sum over assemblies of a function by chance, from its values at places that are led to by ways by
-    chance, so that what is missing would be missed in many ways.
+    """Degree of the sum over assemblies of a function by chance; None where it is no rational function.
+
+    Its places are led to by ways by chance, so that other assemblies would be missing in each.
     """
-    count, most = state.shape[1], 4 * state.shape[1] + 40
-    ends, by_way = random_complex(rng, most), _anywhere(rng, most)
+    count, most = state.shape[1], 6 * state.shape[1] + 48
+    ends, by_way = circle(most), _anywhere(rng, most)
     start = np.tile(state, (1, most))
     half = followed(loops, start, np.full(count * most, base), np.repeat(by_way, count))
     whole = followed(loops, half.state, np.repeat(by_way, count), np.repeat(ends, count))
-    sure = (half.arrived & whole.arrived).reshape(most, count).all(axis=1)
+    if not np.all(half.arrived & whole.arrived):
+        return None
     places = loops.places(whole.state)
     weights = random_complex(rng, places.shape[1])
-    trace = (places @ weights).reshape(most, count).sum(axis=1)
-    return rational_degree(ends[sure], trace[sure])
+    return rational_degree((places @ weights).reshape(most, count).sum(axis=1))

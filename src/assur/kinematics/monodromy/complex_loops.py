@@ -92,7 +92,7 @@ class ComplexLoops:
         matrices = self._mixture @ slopes[:, :, self._free]
         mixed = np.einsum("ij,nj->ni", self._mixture, right)
         try:
-            return np.linalg.solve(matrices, mixed[..., None])[..., 0]
+            return np.asarray(np.linalg.solve(matrices, mixed[..., None])[..., 0], dtype=complex)
         except np.linalg.LinAlgError:
             return np.full(mixed.shape, np.nan, dtype=complex)
 

@@ -44,8 +44,8 @@ class StraightLine:
         self.fill(answer, range(len(answer)), varying, uniform)
         return answer
 
-    def fill(self, answer: FloatArray, rows: Sequence[int], varying: FloatArray, uniform: Sequence[float]) -> None:
-        """The same, each output into its row of a larger answer (M, N)."""
+    def fill(self, answer: NDArray[Any], rows: Sequence[int], varying: NDArray[Any], uniform: Sequence[float]) -> None:
+        """The same, each output into its row of a larger answer (M, N); without roots, numbers may be complex."""
         if varying.shape[1] <= FEW and self._filled_one_by_one(answer, rows, varying, uniform):
             return
         with np.errstate(all="ignore"):
@@ -53,7 +53,7 @@ class StraightLine:
                 answer[row] = numbers
 
     def _filled_one_by_one(
-        self, answer: FloatArray, rows: Sequence[int], varying: FloatArray, uniform: Sequence[float]
+        self, answer: NDArray[Any], rows: Sequence[int], varying: NDArray[Any], uniform: Sequence[float]
     ) -> bool:
         """Whether Python's floats came to the end; where they would be infinite they stop."""
         try:

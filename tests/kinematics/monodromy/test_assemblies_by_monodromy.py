@@ -1,0 +1,108 @@
+"""All assemblies by loops of complex inputs: as many as eliminations count, from one; parts of them have no trace."""
+
+import re
+
+import numpy as np
+import pytest
+
+from assur.errors import Interrupted
+from assur.joint_graph.state import state_of
+from assur.kinematics import assemblies
+from assur.kinematics.border import inputs_of
+from assur.kinematics.home import home_values
+from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
+from assur.kinematics.monodromy import assemblies_by_monodromy as module
+from assur.kinematics.monodromy.assemblies_by_monodromy import assemblies_by_monodromy, direct_by_monodromy
+from assur.kinematics.monodromy.complex_loops import ComplexLoops
+from assur.kinematics.position import direct
+from assur.kinematics.search import distinct
+from assur.model.registry import load_record
+
+COUNTS = {"fivebar": 2, "planar_3rpr": 6, "planar_3rrr": 6, "three_rps": 8}
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_from_one_assembly_all_others(name):
+    """Counts are those of the loops' eliminations; three_rps has as many again, mirrored, which no loop leads to."""
+    record = load_record(name)
+    home = home_values(record)
+    change = 0.03 * np.arange(1, len(record.inputs) + 1)
+    inputs = inputs_of(record, home) * (1 + change)
+    known = solve_by_loops(record, inputs)
+    assert known.complete
+    held = known.joints[0][list(record.input_indices)]
+    solutions = assemblies_by_monodromy(record, held, known.joints[:1])
+    assert solutions.complete
+    assert solutions.complex == COUNTS[name]
+    together = np.concatenate([known.joints, solutions.joints])
+    assert len(distinct(record, together)) == len(known.joints)
+    assert len(solutions.joints) == len(known.joints)
+
+
+def test_a_part_of_all_has_no_trace():
+    record = load_record("planar_3rpr")
+    inputs = inputs_of(record, home_values(record))
+    joints = solve_by_loops(record, inputs).joints
+    loops = ComplexLoops(record, inputs, np.array([0.5 + 0.3j, -0.2 + 0.6j, 0.4 - 0.5j]))
+    rng = np.random.default_rng(0)
+    state = state_of(record, joints.T).astype(complex)
+    zero = np.zeros(len(joints), dtype=complex)
+    base = 0.6 + 0.7j
+    led = module._led(loops, state, zero, zero + base)
+    for _ in range(4):
+        led = module._round_loops(loops, led, base, rng)
+    assert led.shape[1] == 6
+    assert module._trace_degree(loops, led, base, rng) is not None
+    for count in (1, 3, 5):
+        assert module._trace_degree(loops, led[:, :count], base, rng) is None
+
+
+@pytest.fixture
+def unrecognised(monkeypatch):
+    """As if neither loops nor limbs said anything."""
+    nothing = LoopSolutions(np.zeros((0, 9)), False, "not proved", 0)
+    monkeypatch.setattr(assemblies, "solve_by_loops", lambda *_, **__: nothing)
+    monkeypatch.setattr(assemblies, "direct_by_conditions", lambda *_, **__: None)
+
+
+def _assembled(record, inputs):
+    """The direct problem on the joint graph, past the closed form."""
+    return assemblies.assemblies(record, "direct", inputs, "", "auto", crossed=False)
+
+
+def test_the_answer_says_by_what_right(unrecognised):
+    record = load_record("planar_3rrr")
+    inputs = inputs_of(record, home_values(record)) + np.array([0.05, -0.02, 0.03])
+    answer = _assembled(record, inputs)
+    assert answer.complete
+    assert answer.right.startswith("6 complex assemblies, to which loops of complex inputs lead")
+    expected = solve_by_loops(record, inputs).joints
+    assert len(answer.joints) == len(expected) == len(distinct(record, np.concatenate([expected, answer.joints])))
+
+
+def test_ctrl_c_leaves_what_the_search_met(unrecognised, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(assemblies, "direct_by_monodromy", interrupted)
+    record = load_record("planar_3rrr")
+    with pytest.raises(Interrupted) as stop:
+        _assembled(record, inputs_of(record, home_values(record)))
+    assert len(stop.value.answer) == 2
+    assert not stop.value.answer.complete
+
+
+def test_a_search_alone_says_how_many_starts_converged():
+    record = load_record("planar_3rrr")
+    answer = direct(record, inputs_of(record, home_values(record)), method="search")
+    assert not answer.complete
+    assert re.fullmatch(
+        r"not proved: a search from 192 starts, \d+ of which converged, number \d+ to the last new one", answer.right
+    )
+
+
+def test_of_too_many_nothing_is_said():
+    record = load_record("gough_stewart")
+    inputs = inputs_of(record, home_values(record))
+    assert direct_by_monodromy(record, inputs, np.tile(home_values(record), (40, 1))) is None
+    assert not direct(record, inputs, method="search").complete

@@ -1,0 +1,28 @@
+"""Rational functions are told from their values; what has branches is none."""
+
+import numpy as np
+import pytest
+
+from assur.numerics.rational_functions import circle, rational_degree
+
+PLACES = circle(80)
+
+
+@pytest.mark.parametrize("degree", [0, 1, 3, 8, 15])
+def test_the_degree_is_that_of_the_function(degree):
+    rng = np.random.default_rng(degree)
+    zeros, poles = rng.normal(size=(2, degree)) + 1j * rng.normal(size=(2, degree))
+    values = np.prod((PLACES[:, None] - zeros) / (PLACES[:, None] - poles), axis=1)
+    assert rational_degree(values) == degree
+
+
+@pytest.mark.parametrize("place", [0.2, 0.9, 1.1, 2.0])
+def test_branches_that_are_taken_by_chance_are_no_function(place):
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], len(PLACES))
+    assert rational_degree(signs * np.sqrt(PLACES - place)) is None
+
+
+@pytest.mark.parametrize("count", [20, 48, 80, 200])
+def test_numbers_without_a_law_are_no_function(count):
+    rng = np.random.default_rng(count)
+    assert rational_degree(rng.normal(size=count) + 1j * rng.normal(size=count)) is None
