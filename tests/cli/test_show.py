@@ -58,3 +58,11 @@ def test_joints_with_several_freedoms_are_shown(assur_cli):
     home = assur_cli("show", str(path), "--json").json["home"]["joints"]
     assert (len(home["leg1.A"]), len(home["leg1.B1"]), len(home["leg1.C1"])) == (1, 2, 3)
     assert "spherical" in assur_cli("show", str(path)).out
+
+
+def test_modes_that_the_file_does_not_name_are_those_of_the_joint_graph(assur_cli):
+    """Of the planar 3-RPR the file names assembly modes alone."""
+    out = " ".join(assur_cli("show", "planar_3rpr").out.split())
+    assert "working mode: the signs of leg1, leg2, leg3 leg1 (s1) is +: B1 lies ahead of A1 along P1" in out
+    assert "assembly mode: e = sign of" in out
+    assert "(s1)" not in assur_cli("show", "fivebar").out

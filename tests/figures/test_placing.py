@@ -40,6 +40,23 @@ def test_a_label_keeps_off_lines_and_near_its_own():
     assert not box.y0 <= 60.0 <= box.y1
 
 
+def test_of_several_points_a_label_stands_at_the_first_that_is_free():
+    points = np.array([[40.0, 85.0], [85.0, 85.0], [130.0, 85.0]])
+    middles = []
+    for taken in (0, 1):
+        with styled():
+            page = canvas(60, 60)
+            letters = Letters(page)
+            for point in points[:taken]:
+                letters.avoid_box(point + np.array([[-25.0, -60.0], [25.0, 60.0]]))
+            letters.add(points, "s")
+            letters.place()
+            (box,) = boxes(page)
+        middles.append(np.array([box.x0 + box.x1, box.y0 + box.y1]) / 2)
+    nearest = [int(np.argmin(np.linalg.norm(points - middle, axis=1))) for middle in middles]
+    assert nearest == [0, 1]
+
+
 def test_length_of_lines_inside_boxes():
     lines = np.array(
         [

@@ -301,6 +301,6 @@ def _modes(record: Mechanism, data: Positions) -> Iterable[str]:
         parts.append("after ~ a crossed parallelogram")
     yield f"mode: {', '.join(parts) or 'there is one'}"
     signs = described_signs(record, "direct" if data.problem == "direct" else "inverse") if data.signs else ()
-    yield from (f"  {sign.name} ({sign.letter}) is +: {sign.meaning}" for sign in signs if not sign.written)
+    yield from (f"  {sign.said}" for sign in signs if not sign.written)
     if data.home_by:
         yield data.home_by

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.kinematics.answers.style import Style
+    from assur.kinematics.modes import Problem
     from assur.mechanism import Mechanism
     from assur.results.answers.catalogue import MechanismAnswer, ShownClosedForm, ShownJoint, ShownModes
 
@@ -31,7 +32,7 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
     from assur.kinematics.answers.style import style_of
 
     data = description(record)
-    return Outcome(data, lambda: _shown(data, style_of(record)))
+    return Outcome(data, lambda: _shown(record, data, style_of(record)))
 
 
 def description(record: Mechanism) -> MechanismAnswer:
@@ -109,7 +110,7 @@ def _platform_point(record: Mechanism, home: Any) -> list[float]:
     return [float(value) for value in rotation @ record.platform.point + origin]
 
 
-def _shown(data: MechanismAnswer, style: Style) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: MechanismAnswer, style: Style) -> Iterable[RenderableType]:
     free, form, home = data.mobility, data.closed_form, data.home
     yield heading(f"{data.mechanism}: {data.title}")
     yield f"source   {data.source or 'not stated'}"
@@ -140,6 +141,7 @@ def _shown(data: MechanismAnswer, style: Style) -> Iterable[RenderableType]:
     yield f"home: platform point at ({point}) {style.unit}, loops closed to {tiny(home.residual)} {style.unit}"
     yield ""
     yield from _modes(data.modes)
+    yield from _signs(record)
     for name, (low, high) in data.box.items():
         yield f"box: {name} from {low:g} to {high:g} {style.coordinate_unit(name)}"
 
@@ -168,3 +170,18 @@ def _modes(modes: ShownModes) -> Iterable[RenderableType]:
         signs = ", ".join(f"{name} = sign of {text}" for name, text in named.items())
         if signs:
             yield f"{problem} mode: {signs}; default {default}"
+
+
+def _signs(record: Mechanism) -> Iterable[RenderableType]:
+    """The signs that the joint graph gives to modes for which the file names no quantities, and what each + means."""
+    nameless: list[tuple[Problem, str]] = []
+    if not record.modes.working:
+        nameless.append(("inverse", "working"))
+    if not record.modes.assembly:
+        nameless.append(("direct", "assembly"))
+    for problem, kind in nameless:
+        from assur.kinematics.naming import described_signs  # which names in a file do without
+
+        if signs := described_signs(record, problem):
+            yield f"{kind} mode: the signs of {', '.join(sign.name for sign in signs)}"
+            yield from (f"  {sign.said}" for sign in signs)

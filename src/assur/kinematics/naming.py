@@ -37,6 +37,15 @@ class DescribedSign:
     places: tuple[str, ...]
     written: bool
 
+    @property
+    def said(self) -> str:
+        """Name, letter and meaning in a line.
+
+        >>> DescribedSign("leg1", "s1", "B1 lies ahead of A1 along P1", ("A1", "P1", "B1"), False).said
+        'leg1 (s1) is +: B1 lies ahead of A1 along P1'
+        """
+        return f"{self.name} ({self.letter}) is +: {self.meaning}"
+
 
 @lru_cache(maxsize=64)
 def described_signs(record: MechanismRecord, problem: Problem) -> tuple[DescribedSign, ...]:
