@@ -58,6 +58,16 @@ def test_the_letter_of_a_limb_bears_its_colour(drafted):
             assert len(own) == 1 if len(limbs) == 1 else colours[letter(sign.letter)] == "#1a1a1a"
 
 
+def test_a_loop_through_two_limbs_bears_no_limbs_colour(tmp_path):
+    """The coupler of a four-bar closes over a joint between base and platform, which is no part of its crank's limb."""
+    path = tmp_path / "own.toml"
+    assert main(["new", str(path), "four-bar"]) == 0
+    record = load(str(path))
+    (sign,) = described_signs(record, "direct")
+    texts = {text.get_text(): text for text in drawing(record, "model").figure.axes[0].texts}
+    assert texts[letter(sign.letter)].get_color() == "#1a1a1a"
+
+
 def test_captions_say_what_each_plus_means(drafted):
     model, solutions = (spec(drafted.record, name, drafted).caption for name in ("model", "solutions"))
     for problem in ("inverse", "direct"):

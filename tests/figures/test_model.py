@@ -1,5 +1,9 @@
+from dataclasses import replace
+
 import numpy as np
 
+import assur
+from assur.figures.catalogue import drawing
 from assur.joint_graph.points import point
 from assur.kinematics.closure import closure_error
 
@@ -32,3 +36,16 @@ def test_angles_are_joint_values(every, data_of_every):
             item.coordinate for item in every.record.inputs if item.name == name
         )
         assert value == every.schematic.values[coordinate.index]
+
+
+def test_a_platform_point_outside_of_the_links_is_on_the_page():
+    record = assur.load("planar_3rpr")
+    size = 3 * float(np.linalg.norm(record.platform.point)) + 1000.0
+    moved = replace(record, platform=replace(record.platform, point=np.array([size, size, 0.0])))
+    figure = drawing(moved, "model").figure
+    figure.canvas.draw()
+    width, height = figure.bbox.size
+    for text in figure.axes[0].texts:
+        x, y = text.get_window_extent().get_points().mean(axis=0)
+        assert 0 < x < width
+        assert 0 < y < height

@@ -46,12 +46,14 @@ def add_signs(view: View, skeleton: Skeleton, letters: Letters, signs: Sequence[
 
 
 def _colour(skeleton: Skeleton, sign: DescribedSign) -> str:
-    """That of the limb that the sign is about; of several, that of letters."""
+    """That of the limb that has all places of the sign; of several limbs, that of letters."""
     record, colours = skeleton.record, chain_colours(skeleton)
-    joints = [record.joints[name] for name in sign.places if name in record.joints]
-    links = {link for joint in joints for link in (joint.parent, joint.child)}
-    links |= {record.points[name].link for name in sign.places if name in record.points}
-    own = {colours[link] for link in links if link in colours}
+    every = []
+    for name in sign.places:
+        joint = record.joints.get(name)
+        links = (joint.parent, joint.child) if joint else (record.points[name].link,)
+        every.append({colours[link] for link in links if link in colours} or {INK})
+    own = set.union(*every)
     return own.pop() if len(own) == 1 else INK
 
 

@@ -37,7 +37,12 @@ def _caption(context: Context) -> str:
 def _draw(context: Context) -> Drawing:
     skeleton, companion = context.schematic, context.companion
     camera = context.camera("model", oblique("y", "z", 216, 0.6))
-    view, page = fitted(camera, np.concatenate([cloud_of(skeleton, companion), np.zeros((1, 3))]), 150, 105, margin=11)
+    size = 0.13 * skeleton.size
+    platform = skeleton.record.platform
+    moving = skeleton.frames[platform.link]
+    origin = moving[0] @ platform.point + moving[1]
+    frames = np.concatenate([np.zeros((1, 3)), origin + size * moving[0].T])
+    view, page = fitted(camera, np.concatenate([cloud_of(skeleton, companion), frames]), 150, 105, margin=11)
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     ends = [point for rail in rails(skeleton, companion) for point in rail]
@@ -46,13 +51,9 @@ def _draw(context: Context) -> Drawing:
     draw_bodies(page, view, skeleton, letters, Pen(width=1.5, symbol=0.75, colours=chain_colours(skeleton)))
     found = arcs(skeleton, 0.1 * skeleton.size)
     draw_arcs(page, view, found, letters)
-    size = 0.13 * skeleton.size
     base = skeleton.frames[skeleton.record.base]
     draw_frame(page, view, base, base[1], size, "", letters)
     letters.add(view(base[1]), "$O$")
-    platform = skeleton.record.platform
-    moving = skeleton.frames[platform.link]
-    origin = moving[0] @ platform.point + moving[1]
     draw_frame(page, view, moving, origin, size, PRIME, letters)
     draw_measures(page, view, skeleton, letters)
     for name, at in lettered(skeleton).items():
