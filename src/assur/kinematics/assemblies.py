@@ -17,7 +17,7 @@ from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops, staying_parallel
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Method, Problem
-from assur.kinematics.monodromy.assemblies_by_monodromy import direct_by_monodromy
+from assur.kinematics.monodromy.assemblies_by_monodromy import solved_by_monodromy
 from assur.kinematics.near_home import nearest_first
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
@@ -163,9 +163,9 @@ def _assemblies(
     reason = (
         f"not proved: a search from {found.starts} starts, {last if len(found.joints) else 'none of which found one'}"
     )
-    if problem == "direct" and method == "auto" and not interrupted:
+    if method == "auto" and not interrupted:
         try:
-            whole = direct_by_monodromy(record, given, found.joints)
+            whole = solved_by_monodromy(record, problem, given, found.joints)
         except KeyboardInterrupt:
             whole, interrupted = None, True
         if whole:

@@ -12,8 +12,10 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.monodromy import assemblies_by_monodromy as module
-from assur.kinematics.monodromy.assemblies_by_monodromy import assemblies_by_monodromy, direct_by_monodromy
+from assur.kinematics.monodromy.assemblies_by_monodromy import assemblies_by_monodromy, solved_by_monodromy
 from assur.kinematics.monodromy.complex_loops import ComplexLoops
+from assur.kinematics.platforms.inverse import inverse_by_limbs
+from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct
 from assur.kinematics.search import distinct
 from assur.model.registry import load_record
@@ -31,7 +33,7 @@ def test_from_one_assembly_all_others(name):
     known = solve_by_loops(record, inputs)
     assert known.complete
     held = known.joints[0][list(record.input_indices)]
-    solutions = assemblies_by_monodromy(record, held, known.joints[:1])
+    solutions = assemblies_by_monodromy(record, "direct", held, known.joints[:1])
     assert solutions.complete
     assert solutions.complex == COUNTS[name]
     together = np.concatenate([known.joints, solutions.joints])
@@ -39,11 +41,25 @@ def test_from_one_assembly_all_others(name):
     assert len(solutions.joints) == len(known.joints)
 
 
+@pytest.mark.parametrize("name", ["fivebar", "planar_3rrr"])
+def test_at_a_pose_all_working_modes(name):
+    """Those of the limbs, each alone; angles of the pose are known by their tangents, so that others come in too."""
+    record = load_record(name)
+    pose = pose_of(record, home_values(record)) + 0.05 * np.arange(1, len(record.platform.pose) + 1)
+    expected = inverse_by_limbs(record, pose)
+    assert expected.complete
+    solutions = solved_by_monodromy(record, "inverse", pose, expected.joints[:1])
+    assert solutions is not None
+    assert len(solutions.joints) == len(expected.joints)
+    assert len(distinct(record, np.concatenate([solutions.joints, expected.joints]))) == len(expected.joints)
+    assert "loops of complex poses" in solutions.right
+
+
 def test_a_part_of_all_has_no_trace():
     record = load_record("planar_3rpr")
     inputs = inputs_of(record, home_values(record))
     joints = solve_by_loops(record, inputs).joints
-    loops = ComplexLoops(record, inputs, np.array([0.5 + 0.3j, -0.2 + 0.6j, 0.4 - 0.5j]))
+    loops = ComplexLoops(record, "direct", inputs, np.array([0.5 + 0.3j, -0.2 + 0.6j, 0.4 - 0.5j]))
     rng = np.random.default_rng(0)
     state = state_of(record, joints.T).astype(complex)
     zero = np.zeros(len(joints), dtype=complex)
@@ -84,7 +100,7 @@ def test_ctrl_c_leaves_what_the_search_met(unrecognised, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(assemblies, "direct_by_monodromy", interrupted)
+    monkeypatch.setattr(assemblies, "solved_by_monodromy", interrupted)
     record = load_record("planar_3rrr")
     with pytest.raises(Interrupted) as stop:
         _assembled(record, inputs_of(record, home_values(record)))
@@ -104,5 +120,5 @@ def test_a_search_alone_says_how_many_starts_converged():
 def test_of_too_many_nothing_is_said():
     record = load_record("gough_stewart")
     inputs = inputs_of(record, home_values(record))
-    assert direct_by_monodromy(record, inputs, np.tile(home_values(record), (40, 1))) is None
+    assert solved_by_monodromy(record, "direct", inputs, np.tile(home_values(record), (40, 1))) is None
     assert not direct(record, inputs, method="search").complete

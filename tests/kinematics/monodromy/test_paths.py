@@ -16,12 +16,12 @@ def test_there_and_back():
     record = load_record("planar_3rrr")
     inputs = home_values(record)[list(record.input_indices)] + np.array([0.05, -0.02, 0.03])
     joints = solve_by_loops(record, inputs).joints
-    loops = ComplexLoops(record, inputs, np.array([0.3 + 0.2j, -0.4j, 0.5]))
+    loops = ComplexLoops(record, "direct", inputs, np.array([0.3 + 0.2j, -0.4j, 0.5]))
     state = state_of(record, joints.T).astype(complex)
     near, far = np.zeros(len(joints), dtype=complex), np.full(len(joints), 0.4 + 0.5j)
     ends = followed(loops, state, near, far)
     assert ends.arrived.all()
-    assert np.max(np.abs(loops.step(ends.state))) < 1e-9
+    assert np.max(np.abs(loops.step(ends.state, far))) < 1e-9
     assert np.min(np.max(np.abs(loops.places(ends.state) - loops.places(state)), axis=1)) > 1e-3
     back = followed(loops, ends.state, far, near)
     assert np.max(np.abs(back.state - state)) < 1e-7
@@ -40,7 +40,7 @@ def test_round_the_place_where_they_meet_two_assemblies_change_places():
         middle = 0.5 * (low + high)
         low, high = (middle, high) if solvable(middle) else (low, middle)
     joints = solve_by_loops(record, inputs).joints
-    loops = ComplexLoops(record, inputs, np.array([1.0, -1.0], dtype=complex))
+    loops = ComplexLoops(record, "direct", inputs, np.array([1.0, -1.0], dtype=complex))
     begun = state_of(record, joints.T).astype(complex)
     state, zero = begun, np.zeros(2, dtype=complex)
     corners = [zero, zero + low + 0.1j, zero + low + 0.1, zero + low - 0.1j, zero]

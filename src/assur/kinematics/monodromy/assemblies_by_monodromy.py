@@ -1,9 +1,9 @@
-"""All assemblies of a direct problem, real and complex, from some that are known.
+"""All assemblies of a position problem, real and complex, from some that are known.
 
-At complex inputs assemblies change places round a loop of inputs: followed round loops by chance, one leads to all of
-its component. That they are all is told by a trace test: the sum over all of a function of the assembly is a rational
-function of the inputs, and over some of them it is none (A. Leykin, J. I. Rodriguez, F. Sottile 2018). Of a component
-of which nothing is known nothing is said.
+At complex inputs, or poses, assemblies change places round a loop of them: followed round loops by chance, one leads to
+all of its component. That they are all is told by a trace test: the sum over all of a function of the assembly is a
+rational function of the place on a line of inputs, and over some of them it is none (A. Leykin, J. I. Rodriguez,
+F. Sottile 2018). Of a component of which nothing is known nothing is said.
 """
 
 from __future__ import annotations
@@ -19,10 +19,13 @@ from assur.joint_graph.turns import screws_among
 from assur.kinematics.border import held_inputs
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
+from assur.kinematics.modes import Problem
 from assur.kinematics.monodromy.complex_loops import ComplexLoops, NoMonodromyError
 from assur.kinematics.monodromy.paths import followed
+from assur.kinematics.pose import pose_error
 from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import has_quaternion
 from assur.numerics.monodromy import random_complex
 from assur.numerics.rational_functions import circle, rational_degree
 from assur.work import stage
@@ -34,6 +37,8 @@ SAME = 1e-6
 """Largest difference of places, in characteristic lengths, of assemblies that are one."""
 REAL = 1e-6
 """Imaginary part of a state, its numbers being of size 1, of an assembly that is tried as a real one."""
+AS_GIVEN = 1e-5
+"""Largest difference of a pose, in lengths and rad, from the one that is asked."""
 REGULAR = 1e-7
 """Ratio of singular values from which on an assembly can be followed."""
 SIZES = 4.0
@@ -70,9 +75,11 @@ class MonodromySolutions:
 
 
 def assemblies_by_monodromy(
-    record: MechanismRecord, inputs: FloatArray, known: FloatArray, seed: int = 0
+    record: MechanismRecord, problem: Problem, given: FloatArray, known: FloatArray, seed: int = 0
 ) -> MonodromySolutions | None:
-    """From known assemblies (K, n) at joint values (k,) of the inputs; None where no regular one can be followed.
+    """From known assemblies (K, n) at joint values (k,) of the inputs, or at a pose (k,); None where none is regular.
+
+    At a pose there may be some of another pose among them, whose angles have the same tangents.
 
     Errors:
         NoMonodromyError: the loops have fewer equations than free joints.
@@ -81,12 +88,12 @@ def assemblies_by_monodromy(
     >>> from assur.model.registry import load_record
     >>> record = load_record("planar_3rpr")
     >>> home = home_values(record)
-    >>> solutions = assemblies_by_monodromy(record, home[list(record.input_indices)], home[None])
+    >>> solutions = assemblies_by_monodromy(record, "direct", home[list(record.input_indices)], home[None])
     >>> solutions.complex, solutions.complete
     (6, True)
     """
     rng = np.random.default_rng(seed)
-    loops = ComplexLoops(record, inputs, random_complex(rng, len(inputs)))
+    loops = ComplexLoops(record, problem, given, random_complex(rng, len(given)))
     begun = state_of(record, known.T).astype(complex)
     begun = begun[:, loops.regularity(begun) > REGULAR]
     base = np.exp(2j * np.pi * rng.uniform())
@@ -111,29 +118,38 @@ def assemblies_by_monodromy(
 
 
 @stage("assemblies followed round loops of complex inputs")
-def direct_by_monodromy(record: MechanismRecord, inputs: FloatArray, known: FloatArray) -> LoopSolutions | None:
-    """All assemblies at printed inputs (k,), those that a search knows (K, n) among them; None where that is not known.
+def solved_by_monodromy(
+    record: MechanismRecord, problem: Problem, given: FloatArray, known: FloatArray
+) -> LoopSolutions | None:
+    """All assemblies at printed inputs (k,) or a pose (k,), with those that a search knows (K, n); None where that is
+    not known.
 
     >>> from assur.kinematics.search import search
     >>> from assur.model.registry import load_record
     >>> record, inputs = load_record("fivebar"), np.radians([127.0, 53.0])
-    >>> print(direct_by_monodromy(record, inputs, search(record, "direct", inputs).joints).right)
+    >>> print(solved_by_monodromy(record, "direct", inputs, search(record, "direct", inputs).joints).right)
     2 complex assemblies, to which loops of complex inputs lead from those of a search, with a trace of degree 4
     """
-    question = PositionQuestion(record, "direct", inputs)
+    question = PositionQuestion(record, problem, given)
     if not len(known) or _too_many(record, len(known)) or np.any(screws_among(record)):
         return None
-    held = held_inputs(record, home_values(record), inputs)[list(record.input_indices)]
+    if problem == "inverse" and has_quaternion(record.platform.pose):
+        return None
+    held = held_inputs(record, home_values(record), given)[list(record.input_indices)] if problem == "direct" else given
     try:
-        solutions = assemblies_by_monodromy(record, held, known)
+        solutions = assemblies_by_monodromy(record, problem, held, known)
     except NoMonodromyError:
         return None
     if solutions is None or not solutions.complete:
         return None
-    joints = question.closed(solutions.joints)
+    joints = solutions.joints
+    if problem == "inverse":
+        joints = joints[np.max(np.abs(pose_error(record, joints, given, 1.0)), axis=1, initial=0.0) < AS_GIVEN]
+    joints = question.closed(joints)
     if len(distinct(record, np.concatenate([joints, known]))) != len(joints):
         return None  # a known one is singular, so that no path leads there
-    right = f"{solutions.complex} complex assemblies, to which loops of complex inputs lead from those of a search, "
+    lines = "inputs" if problem == "direct" else "poses"
+    right = f"{solutions.complex} complex assemblies, to which loops of complex {lines} lead from those of a search, "
     return LoopSolutions(joints, True, f"{right}with a trace of degree {solutions.degree}", solutions.complex)
 
 

@@ -1,4 +1,4 @@
-"""The loops of the joint graph at complex configurations, with inputs on a complex line.
+"""The loops of the joint graph at complex configurations, with inputs or the pose on a complex line.
 
 A configuration is a state (k, N): lengths, cosines and sines, quaternions, which may all be complex. Rates (N, n) of
 joint coordinates change it; lengths count in characteristic lengths, a ball joint's are an angular velocity.
@@ -18,6 +18,8 @@ from assur.joint_graph.programs import program
 from assur.joint_graph.state import changes_at, state_of, unit_state
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import gaps_and_rates
+from assur.kinematics.modes import Problem
+from assur.kinematics.monodromy.pose_line import PoseLine
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -25,27 +27,31 @@ ComplexArray = NDArray[np.complex128]
 
 
 class NoMonodromyError(Exception):
-    """A mechanism whose inputs leave no line of complex problems; the message says why."""
+    """A problem that is not solved on a line of complex ones; the message says why."""
 
 
 @dataclass(frozen=True, eq=False)
 class ComplexLoops:
-    """Loops with inputs q(t): a length is q + v t, an angle q + 2 atan(v t), so that its cosine is rational in t.
+    """Loops with inputs or a pose q(t): a length is q + v t, an angle q + 2 atan(v t), so that its cosine is rational.
 
     Attributes:
         record: the mechanism.
-        inputs: (k,) joint values of the inputs at t = 0.
+        problem: whether the inputs are given, or the pose.
+        given: (k,) joint values of the inputs, or the pose, at t = 0.
         direction: (k,) complex v, lengths in characteristic lengths.
     """
 
     record: MechanismRecord
-    inputs: FloatArray
+    problem: Problem
+    given: FloatArray
     direction: ComplexArray
 
     def at(self, state: ComplexArray, t: ComplexArray) -> ComplexArray:
         """A state (k, N) with the inputs at t (N,)."""
+        if self.problem == "inverse":
+            return state
         values = np.zeros((len(self.record.coordinates), len(t)), dtype=complex)
-        placed = self._angles[:, None], self.direction[:, None] * t, self.inputs[:, None]
+        placed = self._angles[:, None], self.direction[:, None] * t, self.given[:, None]
         values[self._columns] = np.where(
             placed[0], placed[2] + 2 * np.arctan(placed[1]), placed[2] + self._units[:, None] * placed[1]
         )
@@ -56,16 +62,18 @@ class ComplexLoops:
 
     def tangent(self, state: ComplexArray, t: ComplexArray) -> ComplexArray:
         """Rates (N, n) by t of an assembly (k, N)."""
-        _, slopes = self._equations(state)
+        _, slopes, changes = self._equations(state, t)
         rates = np.zeros((len(t), len(self.record.coordinates)), dtype=complex)
-        shift = self.direction * np.ones((len(t), 1))
-        rates[:, self._columns] = np.where(self._angles, 2 * shift / (1 + (self.direction * t[:, None]) ** 2), shift)
-        rates[:, self._free] = self._solved(slopes, -np.einsum("nij,nj->ni", slopes, rates))
+        if self.problem == "direct":
+            own = self.direction * np.ones((len(t), 1))
+            rates[:, self._columns] = np.where(self._angles, 2 * own / (1 + (self.direction * t[:, None]) ** 2), own)
+            changes = np.einsum("nij,nj->ni", slopes, rates)
+        rates[:, self._free] = self._solved(slopes, -changes)
         return rates
 
-    def step(self, state: ComplexArray) -> ComplexArray:
-        """Newton's step: rates (N, n) that close the loops, inputs held."""
-        gaps, slopes = self._equations(state)
+    def step(self, state: ComplexArray, t: ComplexArray) -> ComplexArray:
+        """Newton's step: rates (N, n) that close the loops, inputs or the pose as at t (N,)."""
+        gaps, slopes, _ = self._equations(state, t)
         rates = np.zeros((state.shape[1], len(self.record.coordinates)), dtype=complex)
         rates[:, self._free] = self._solved(slopes, -gaps)
         return rates
@@ -83,8 +91,8 @@ class ComplexLoops:
         return blocks.reshape(12 * len(blocks), state.shape[1]).T
 
     def regularity(self, state: ComplexArray) -> FloatArray:
-        """Smallest over largest singular value (N,) of the equations in the free joints."""
-        _, slopes = self._equations(state)
+        """Smallest over largest singular value (N,) of the equations in the free joints, at t = 0."""
+        _, slopes, _ = self._equations(state, np.zeros(state.shape[1], dtype=complex))
         sizes = np.linalg.svd(slopes[:, :, self._free], compute_uv=False)
         return np.asarray(sizes[:, -1] / sizes[:, 0])
 
@@ -96,8 +104,8 @@ class ComplexLoops:
         except np.linalg.LinAlgError:
             return np.full(mixed.shape, np.nan, dtype=complex)
 
-    def _equations(self, state: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
-        """Gaps (N, e) and their derivative (N, e, n): of loops, and of spins, which are held."""
+    def _equations(self, state: ComplexArray, t: ComplexArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+        """Gaps (N, e) and their derivatives (N, e, n), and (N, e) by t: of loops, spins, which are held, and a pose."""
         record, loops = self.record, len(joint_graph(self.record).cut)
         count, length = len(record.coordinates), characteristic_length(self.record)
         system = program(record, gaps_and_rates)
@@ -108,14 +116,24 @@ class ComplexLoops:
         gaps = np.concatenate([distance, turned], axis=1).reshape(6 * loops, state.shape[1]).T
         slopes = system.matrix("derivative", numbers, (6 * loops, count)) * self._scales
         slopes.reshape(len(slopes), loops, 6, count)[:, :, :3] /= length
-        if not len(self._spins):
-            return gaps, slopes
-        spins = np.broadcast_to(self._spins, (len(gaps), *self._spins.shape))
-        return np.pad(gaps, ((0, 0), (0, len(self._spins)))), np.concatenate([slopes, spins], axis=1)
+        if len(self._spins):
+            spins = np.broadcast_to(self._spins, (len(gaps), *self._spins.shape))
+            gaps = np.pad(gaps, ((0, 0), (0, len(self._spins))))
+            slopes = np.concatenate([slopes, spins], axis=1)
+        changes = np.zeros_like(gaps)
+        if self._pose is not None:
+            off, own, rates = self._pose.conditions(state, t)
+            parts = ((gaps, off), (slopes, own * self._scales), (changes, rates))
+            gaps, slopes, changes = (np.concatenate(part, axis=1) for part in parts)
+        return gaps, slopes, changes
+
+    @cached_property
+    def _pose(self) -> PoseLine | None:
+        return PoseLine(self.record, self.given, self.direction) if self.problem == "inverse" else None
 
     @cached_property
     def _columns(self) -> list[int]:
-        return list(self.record.input_indices)
+        return list(self.record.input_indices) if self.problem == "direct" else []
 
     @cached_property
     def _free(self) -> list[int]:
@@ -160,7 +178,8 @@ class ComplexLoops:
     @cached_property
     def _mixture(self) -> ComplexArray:
         """As many combinations (f, e) of the equations as there are free joints."""
-        count, free = 6 * len(joint_graph(self.record).cut) + len(self._spins), len(self._free)
+        pose = len(self.given) if self.problem == "inverse" else 0
+        count, free = 6 * len(joint_graph(self.record).cut) + len(self._spins) + pose, len(self._free)
         if count < free:
             raise NoMonodromyError("fewer equations than free joints")
         rng = np.random.default_rng(6)

@@ -1,4 +1,4 @@
-"""Assemblies followed while the inputs change on their complex line: a midpoint step, then Newton's method."""
+"""Assemblies followed while inputs or a pose change on a complex line: a midpoint step, then Newton's method."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class ComplexPaths:
 
 
 def followed(loops: ComplexLoops, state: ComplexArray, start: ComplexArray, end: ComplexArray) -> ComplexPaths:
-    """Assemblies (k, N) with inputs at start (N,) followed straight to end (N,)."""
+    """Assemblies (k, N) at start (N,) on the line of inputs or poses followed straight to end (N,)."""
     state, count = state.copy(), state.shape[1]
     way, share, step = end - start, np.zeros(count), np.full(count, FIRST)
     infinite = np.zeros(count, dtype=bool)
@@ -68,7 +68,7 @@ def _stepped(
     new = loops.at(loops.moved(state, half, dt[:, None] * loops.tangent(half, t + 0.5 * dt)), t + dt)
     largest = np.zeros(len(t))
     for _ in range(CORRECTIONS):
-        rates = loops.step(new)
+        rates = loops.step(new, t + dt)
         last = np.max(np.abs(rates), axis=1)
         largest = np.maximum(largest, last)
         if not np.any((last > CLOSED) & (largest <= CLOSE)):
