@@ -106,3 +106,12 @@ def test_modes_are_rows_of_signs():
     assert len(found["working"]["all"]) == 2 ** len(found["working"]["names"]) == 32
     assert found["working"]["default"] == "++-++"
     assert modes(load("gough_stewart"))["working"] == {"names": [], "all": [[]], "default": ""}
+
+
+def test_of_many_working_modes_the_first_have_their_assembly_modes_and_the_others_say_that_they_stand_alone(monkeypatch):
+    monkeypatch.setattr(page, "WITH_ASSEMBLIES", 3)
+    working = page.branches(load("planar_3rrr"))["working"]
+    assert len(working) == 8
+    assert [item.get("lone", False) for item in working] == [False] * 3 + [True] * 5
+    for item in working[3:]:
+        assert [pose["values"] for pose in item["assembly"]] == [item["values"]]

@@ -56,6 +56,7 @@ export class Mechanism {
   /** Takes the assembly modes of a working mode, as they are at home's pose. @param {number} work its index */
   list(work) {
     const found = this.working[work].assembly ?? this.scene.branches.assembly;
+    this.lone = this.working[work].lone ?? false;
     this.assembly = found.map((item) => ({ ...item, values: item.values.slice(), reached: true, fresh: true }));
   }
 

@@ -44,6 +44,7 @@ export function modeLists(mechanism, ghosts) {
   const note = el("p", { class: "quiet", hidden: true }, "It stands in none of these, which are those of home’s pose.");
   const pressed = (list, current) =>
     [...list.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
+  const lone = el("p", { class: "quiet", hidden: true }, "Other assembly modes were not looked for in this working mode.");
   let listed = null;
   let timer = 0;
   const show = () => {
@@ -53,6 +54,7 @@ export function modeLists(mechanism, ghosts) {
         ...listed.map((item, k) => button(item, k, COLOURS[k % COLOURS.length], () => mechanism.choose(k))),
       );
     }
+    lone.hidden = !mechanism.lone;
     pressed(assembly, mechanism.branch);
     clearTimeout(timer);
     const mark = () => {
@@ -71,5 +73,5 @@ export function modeLists(mechanism, ghosts) {
     });
   mechanism.listen(show);
   show();
-  return { assembly, working: el("div", {}, working, note) };
+  return { assembly: el("div", {}, assembly, lone), working: el("div", {}, working, note) };
 }

@@ -50,7 +50,7 @@ class Limit:
             return np.asarray(self.sign * joints[..., self.index] + self.offset)
         turn = rotations.from_vector(joints[..., self.index : self.index + 3])
         tilted = turn @ self.axis
-        across = np.linalg.norm(np.cross(tilted, self.axis), axis=-1)
+        across = np.linalg.norm(rotations.cross(tilted, self.axis), axis=-1)
         return np.asarray(np.arctan2(across, tilted @ self.axis))
 
     def margin(self, joints: FloatArray) -> FloatArray:

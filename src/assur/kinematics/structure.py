@@ -9,6 +9,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.numerics.rotations import cross
 from assur.topology.screws.linkage import FloatArray, Group, Linkage, LinkageJoint
 
 
@@ -66,4 +67,4 @@ def _slid(joint: Joint, values: FloatArray, placed: dict[str, Frame]) -> FloatAr
 
 def _about(point: FloatArray) -> FloatArray:
     """Unit screws (3, 6) about the base's axes through a point: an S joint's rates at home are not of unit length."""
-    return np.hstack([np.eye(3), np.cross(point, np.eye(3))])
+    return np.hstack([np.eye(3), cross(point, np.eye(3))])

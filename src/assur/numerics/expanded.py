@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -116,15 +117,36 @@ class ExpandedSystem:
         self, x: ComplexArray, t: NDArray[np.inexact], problem: NDArray[np.intp]
     ) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
         """H (N, E), its derivatives by x (N, E, n) and by t (N, E), at points (N, n) of problems (N,)."""
-        problems, powers, equations, monomials = self.coefficients.shape
-        flat = self.coefficients.reshape(problems, powers * equations, monomials)
-        coefficients = flat[0] if problems == 1 else flat[problem]
-        parts = (coefficients @ self._monomials(x)).reshape(len(x), powers, equations, self.size + 1)
+        powers = self.coefficients.shape[1]
+        parts = self._parts(x, problem)
         values, rate = parts[:, -1], np.zeros_like(parts[:, -1])
         for k in range(powers - 2, -1, -1):  # Horner's rule, and for the derivative
             rate = rate * t[:, None, None] + values
             values = values * t[:, None, None] + parts[:, k]
         return values[..., -1], values[..., :-1], rate[..., -1]
+
+    def _parts(self, x: ComplexArray, problem: NDArray[np.intp]) -> ComplexArray:
+        """Derivatives by the unknowns and, last, values (N, T, E, n + 1) of what each power of t is multiplied by."""
+        problems, powers, equations, monomials = self.coefficients.shape
+        if self._forms is not None:
+            slopes = (x @ self._forms).reshape(len(x), powers, equations, self.size)
+            values = 0.5 * (slopes @ x[:, None, :, None])  # Euler's theorem
+            return np.concatenate([slopes, values], axis=-1)
+        flat = self.coefficients.reshape(problems, powers * equations, monomials)
+        coefficients = flat[0] if problems == 1 else flat[problem]
+        return (coefficients @ self._monomials(x)).reshape(len(x), powers, equations, self.size + 1)
+
+    @cached_property
+    def _forms(self) -> ComplexArray | None:
+        """Of one problem of quadrics, twice their matrices (n, T E n): a tenth of the arithmetic of monomials."""
+        problems, powers, equations, monomials = self.coefficients.shape
+        if problems != 1 or self.factors.shape[1] != 2 or np.any(self.factors == self.size):
+            return None
+        first, second = self.factors.T
+        forms = np.zeros((self.size, powers * equations, self.size), dtype=complex)
+        flat = self.coefficients[0].reshape(-1, monomials)
+        forms[first, :, second] = flat.T
+        return np.ascontiguousarray((forms + np.swapaxes(forms, 0, 2)).reshape(self.size, -1))
 
     def _monomials(self, x: ComplexArray) -> ComplexArray:
         """Derivatives of all monomials by the unknowns, and last the monomials (N, M, n + 1), at points (N, n)."""

@@ -16,6 +16,8 @@ from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
+WITH_ASSEMBLIES = 16
+"""Of how many working modes the other assembly modes are looked for: each takes 0.1 to 0.3 s, and six limbs have 64."""
 
 
 def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
@@ -24,7 +26,8 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
     Home itself stands first in both, with its joint values as they are, and is marked: its "home" is true. It is called
     "home" where no solution is it (an arc of a self-motion, a crossed parallelogram), and has its own status. Every
     other working mode has "assembly" too: the assembly modes at its own inputs, itself first; it is alone there where
-    the inputs do not hold the platform. Angles are those nearest to home's.
+    the inputs do not hold the platform, and beyond the first `WITH_ASSEMBLIES`, which are marked "lone": of these no
+    other one was looked for. Angles are those nearest to home's.
 
     >>> from assur.model.registry import load_record
     >>> found = branches(load_record("fivebar"))
@@ -40,7 +43,12 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
         "assembly": [{**_plain(own), "home": True}, *map(_plain, poses)],
         "working": [
             {**_plain(first), "home": True},
-            *({**_plain(item), "assembly": _assembly(record, home, item)} for item in others),
+            *(
+                {**_plain(item), "assembly": _assembly(record, home, item)}
+                if k < WITH_ASSEMBLIES
+                else {**_plain(item), "assembly": [_alone(record, item)], "lone": True}
+                for k, item in enumerate(others, start=1)
+            ),
         ],
     }
 
@@ -60,11 +68,16 @@ def modes(record: MechanismRecord) -> dict[str, Any]:
 
 def _assembly(record: MechanismRecord, home: FloatArray, posture: Posture) -> list[dict[str, Any]]:
     """Assembly modes at the inputs of another working mode, itself first."""
-    label = mode_names(record, posture.values)[1] or "this one"
+    alone = _alone(record, posture)
     if posture.status is not Status.regular:  # the platform moves by itself there, or as good as
-        return [{**_plain(posture), "label": label}]
-    first, *others = _listed(record, posture.values, "direct", label)
+        return [alone]
+    first, *others = _listed(record, posture.values, "direct", alone["label"])
     return [_plain(first), *({**_plain(row), "values": unwound(record, row.values, home).tolist()} for row in others)]
+
+
+def _alone(record: MechanismRecord, posture: Posture) -> dict[str, Any]:
+    """A working mode as the assembly mode that it is."""
+    return {**_plain(posture), "label": mode_names(record, posture.values)[1] or "this one"}
 
 
 def _listed(record: MechanismRecord, values: FloatArray, problem: Problem, name: str) -> list[Posture]:

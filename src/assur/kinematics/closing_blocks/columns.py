@@ -165,7 +165,7 @@ class ScrewColumns:
 
 def _about(point: FloatArray) -> FloatArray:
     """Velocities (N, 3, 3) at the base's origin of unit rotations about the base's axes through points (N, 3)."""
-    return np.swapaxes(np.cross(point[:, None, :], np.eye(3)), -1, -2)
+    return np.swapaxes(rotations.cross(point[:, None, :], np.eye(3)), -1, -2)
 
 
 def _angle_axes(record: MechanismRecord, rotation: FloatArray) -> FloatArray:

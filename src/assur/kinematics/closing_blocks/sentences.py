@@ -10,6 +10,7 @@ from assur.kinematics.closing_blocks.distinguishing import ModeSign
 from assur.kinematics.closing_blocks.signs import BlockSign, StrokeSign
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.rotations import cross
 
 PARALLEL = 1e-9
 """Sine of the angle between axes up to which they are parallel: they are written, or turned by a limb's angle."""
@@ -75,7 +76,7 @@ def _dyad_side(screws: ScrewColumns, factor: BlockSign) -> str:
     axes = [screws.axis(name)[0] for name in hinges]
     if len(hinges) < 2 or len(hinges) + len(slides) != 3:
         return ""
-    if max(np.linalg.norm(np.cross(axes[0], axis)) for axis in axes) > PARALLEL:
+    if max(np.linalg.norm(cross(axes[0], axis)) for axis in axes) > PARALLEL:
         return ""
     places = [screws.centre(name)[0] for name in hinges]
     if slides:
@@ -84,7 +85,7 @@ def _dyad_side(screws: ScrewColumns, factor: BlockSign) -> str:
             return ""
         ahead = float((places[1] - places[0]) @ along) > 0
         return f"{hinges[1]} lies {'ahead of' if ahead else 'behind'} {hinges[0]} along {slides[0]}"
-    turn = float(np.cross(places[2] - places[0], places[1] - places[0]) @ axes[0])
+    turn = float(cross(places[2] - places[0], places[1] - places[0]) @ axes[0])
     return f"{hinges[1]} lies on the {'left' if turn > 0 else 'right'} of the line from {hinges[0]} to {hinges[2]}"
 
 

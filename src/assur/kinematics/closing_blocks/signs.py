@@ -33,6 +33,7 @@ from assur.kinematics.closing_blocks.blocks import (
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 SignArray = NDArray[np.int8]
@@ -159,7 +160,7 @@ def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
             if near == far or slide.parent not in ends[0] or slide.child not in ends[1]:
                 continue
             line = screws.centre(far) - screws.centre(near)
-            off = np.linalg.norm(np.cross(line, screws.axis(name)), axis=1)
+            off = np.linalg.norm(cross(line, screws.axis(name)), axis=1)
             if np.max(off) < SMALL * characteristic_length(record):
                 stroke = float(StrokeSign(name, near, far).strokes(screws)[0])
                 if stroke:

@@ -40,7 +40,7 @@ def concurrent_turns(motions: Sequence[ElementaryMotion], rotation: FloatArray) 
         for motion, value in zip(before, values, strict=True):
             rest = displacement(motion, value)[0].T @ rest
         vector = rotations.to_vector(rest)
-        missed = float(np.linalg.norm(np.cross(vector, last.axis)))
+        missed = float(np.linalg.norm(rotations.cross(vector, last.axis)))
         if missed < CLOSE:
             rows.append([*values, last.sense * (vector @ last.axis)])
             bent.append(max(own, missed))
@@ -58,6 +58,6 @@ def along(line: FloatArray, end: FloatArray) -> FloatArray:
     start, end = line / np.linalg.norm(line), end / np.linalg.norm(end)
     if start @ end > -0.5:
         return rotations.taking(start, end)
-    across = np.cross(start, np.eye(3)[np.argmin(np.abs(start))])
+    across = rotations.cross(start, np.eye(3)[np.argmin(np.abs(start))])
     half_turn = rotations.about_axis(across / np.linalg.norm(across), np.asarray(np.pi))
     return np.asarray(rotations.taking(-start, end) @ half_turn)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.limbs.serial import ElementaryMotion, applied, displacement
+from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -120,7 +121,7 @@ def _polished(
             moved = (rotation @ moved[..., None])[..., 0] + shift
             columns = [(rotation @ own[..., None])[..., 0] for own in columns]
             rate = np.broadcast_to(motion.axis, moved.shape)
-            rate = rate if motion.kind == "slide" else np.cross(motion.axis, moved - motion.point)
+            rate = rate if motion.kind == "slide" else cross(motion.axis, moved - motion.point)
             columns.insert(0, motion.sense * rate)
         slopes = np.stack(columns, axis=-1) / [size if motion.kind == "turn" else 1.0 for motion in motions]
         steps = np.linalg.pinv(slopes, rcond=VANISHING) @ ((place - moved) / size)[..., None]
@@ -157,7 +158,7 @@ def _followed(motions: Sequence[ElementaryMotion], values: FloatArray, points: F
 
 def _from_axis(motion: ElementaryMotion, points: FloatArray) -> FloatArray:
     """Distances (N,) of points (N, 3) from the line of a motion."""
-    return np.asarray(np.linalg.norm(np.cross(points - motion.point, motion.axis), axis=-1))
+    return np.asarray(np.linalg.norm(cross(points - motion.point, motion.axis), axis=-1))
 
 
 def _taking(motion: ElementaryMotion, points: FloatArray, place: FloatArray) -> FloatArray:
@@ -165,7 +166,7 @@ def _taking(motion: ElementaryMotion, points: FloatArray, place: FloatArray) -> 
     if motion.kind == "slide":
         return np.asarray(motion.sense * ((place - points) @ motion.axis))
     before, after = points - motion.point, place - motion.point
-    sine = np.cross(before, after) @ motion.axis
+    sine = cross(before, after) @ motion.axis
     cosine = before @ after - (before @ motion.axis) * (after @ motion.axis)
     return np.asarray(motion.sense * np.arctan2(sine, cosine))
 
@@ -200,7 +201,7 @@ def _parts(motion: ElementaryMotion, points: FloatArray, size: float) -> tuple[F
         return along, points / size, np.zeros(points.shape)
     offset = points - motion.point
     kept = (offset @ motion.axis)[..., None] * motion.axis
-    return (offset - kept) / size, (motion.point + kept) / size, motion.sense * np.cross(motion.axis, offset) / size
+    return (offset - kept) / size, (motion.point + kept) / size, motion.sense * cross(motion.axis, offset) / size
 
 
 def _polynomial(motion: ElementaryMotion, along: FloatArray, constant: FloatArray, across: FloatArray) -> ComplexArray:

@@ -138,12 +138,12 @@ def _meetings(motions: Sequence[ElementaryMotion]) -> Iterator[_Centre]:
 
 
 def _distance(motion: ElementaryMotion, point: FloatArray) -> float:
-    return float(np.linalg.norm(np.cross(motion.axis, point - motion.point)))
+    return float(np.linalg.norm(rotations.cross(motion.axis, point - motion.point)))
 
 
 def meeting(first: ElementaryMotion, second: ElementaryMotion) -> FloatArray:
     """The point of the first axis that is nearest to the second."""
-    across = np.cross(np.cross(first.axis, second.axis), second.axis)
+    across = rotations.cross(rotations.cross(first.axis, second.axis), second.axis)
     share = across @ first.axis
     if abs(share) < MEETING:
         return first.point

@@ -130,8 +130,8 @@ def _rods_along_circles(record: MechanismRecord, turnings: Turnings) -> dict[str
         turned = turning.rotation @ vector
         across = turned - (turned @ turning.hinge) * turning.hinge
         if np.linalg.norm(across) > UNUSED * characteristic_length(record):
-            wanted = np.cross(turning.hinge, turning.axis)
-            angles[turning.rod] = np.arctan2(turning.hinge @ np.cross(across, wanted), across @ wanted)
+            wanted = rotations.cross(turning.hinge, turning.axis)
+            angles[turning.rod] = np.arctan2(turning.hinge @ rotations.cross(across, wanted), across @ wanted)
     for link, turning in turnings.items():
         if turning.rod in angles and turning.hinge is not None:
             found[link] = replace(
@@ -237,7 +237,7 @@ def _carried(bare: System, link: str, vector: FloatArray) -> ComplexArray:
     circle = 1 + 2 * turning.circle
     if turning.hinge is not None:
         rod = [group for group in bare.groups if group.kind == "rod"][turning.rod or 0]
-        along = np.cross(turning.hinge, turning.axis)
+        along = rotations.cross(turning.hinge, turning.axis)
         share = turned @ along
         turned = turned - share * along
         if abs(turned @ turning.axis) > UNUSED:
@@ -251,7 +251,7 @@ def _carried(bare: System, link: str, vector: FloatArray) -> ComplexArray:
 
 def _halves(axis: FloatArray, across: FloatArray) -> ComplexArray:
     """Coefficients (3, 2) of z and z~ for a vector across the axis."""
-    quarter = np.cross(axis, across)
+    quarter = rotations.cross(axis, across)
     return np.stack([(across - 1j * quarter) / 2, (across + 1j * quarter) / 2], axis=1)
 
 
@@ -271,7 +271,7 @@ def _orientation(system: System, turning: Turning, unknowns: ComplexArray) -> Fl
         wanted = unknowns[list(_ball(system, turning).columns)].real
         if turning.line @ wanted >= 0.0:
             return rotations.taking(turning.line, wanted)
-        across = np.cross(turning.line, np.eye(3)[np.argmin(np.abs(turning.line))])
+        across = rotations.cross(turning.line, np.eye(3)[np.argmin(np.abs(turning.line))])
         half_turn = rotations.about_axis(across / np.linalg.norm(across), np.asarray(np.pi))
         return np.asarray(rotations.taking(-turning.line, wanted) @ half_turn)
     if turning.circle is None or turning.axis is None:
@@ -288,5 +288,5 @@ def _orientation(system: System, turning: Turning, unknowns: ComplexArray) -> Fl
 def _upright(sides: FloatArray) -> FloatArray:
     """The frame (3, 3) whose x axis is along the first of two vectors (2, 3), and whose xy plane contains both."""
     x = sides[0] / np.linalg.norm(sides[0])
-    z = np.cross(x, sides[1]) / np.linalg.norm(np.cross(x, sides[1]))
-    return np.stack([x, np.cross(z, x), z], axis=1)
+    z = rotations.cross(x, sides[1]) / np.linalg.norm(rotations.cross(x, sides[1]))
+    return np.stack([x, rotations.cross(z, x), z], axis=1)

@@ -122,7 +122,7 @@ def _rods_alike(
             cross = near @ rotations.about_axis(joint.axes[0], values[slices[joint.name]][0])
             crosses.append((middle(joint), cross))
             axes.append(np.stack([near @ joint.axes[0], cross @ joint.axes[1]]))
-    if np.max(np.linalg.norm(np.cross(axes[0], axes[1]), axis=1)) < PARALLEL:
+    if np.max(np.linalg.norm(rotations.cross(axes[0], axes[1]), axis=1)) < PARALLEL:
         rods = [(link, placed[link][0]) for link in _rods(record, group)]
         for (first, here), (second, there) in (crosses, rods):
             yield Stiff(first, second, here.T @ there)
@@ -164,7 +164,7 @@ def triangles_of_balls(record: MechanismRecord) -> dict[str, FloatArray]:
             centres = np.array([_point_on(joint, link) for joint in joints])
             sides = centres - centres[0]
             second = int(np.argmax(np.linalg.norm(sides, axis=1)))
-            third = int(np.argmax(np.linalg.norm(np.cross(sides, sides[second]), axis=1)))
+            third = int(np.argmax(np.linalg.norm(rotations.cross(sides, sides[second]), axis=1)))
             found[link] = centres[[0, second, third]]
     return found
 

@@ -237,7 +237,7 @@ Carried = tuple[str, FloatArray, FloatArray, FloatArray]
 def _stands(root: str, first: Carried, second: Carried) -> list[list[Stiff]]:
     """How two bodies can stand in the root, each Rot(u, psi) C with w as it carries it at psi = 0; w is one of both."""
     (near, u, here, own), (far, v, there, other) = first, second
-    across = np.cross(u, v)
+    across = rotations.cross(u, v)
     along = np.linalg.solve(np.array([[1.0, u @ v], [u @ v, 1.0]]), [u @ own, v @ other])
     rest = float(1.0 - along @ [u @ own, v @ other])
     if rest < -EXACT:
@@ -258,7 +258,7 @@ def _stands(root: str, first: Carried, second: Carried) -> list[list[Stiff]]:
 
 def _angle(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """The angle of the turn about an axis that takes one direction to another."""
-    return np.asarray(np.arctan2(axis @ np.cross(start, end), start @ end - (axis @ start) * (axis @ end)))
+    return np.asarray(np.arctan2(axis @ rotations.cross(start, end), start @ end - (axis @ start) * (axis @ end)))
 
 
 def _hinged(free: list[HingeTurn], circling: Mapping[str, Way]) -> dict[str, tuple[str, FloatArray, FloatArray]]:
@@ -291,4 +291,4 @@ def _upright(axis: FloatArray) -> FloatArray:
 
 
 def _along(axis: FloatArray, other: FloatArray) -> bool:
-    return bool(np.linalg.norm(np.cross(axis, other)) < EXACT)
+    return bool(np.linalg.norm(rotations.cross(axis, other)) < EXACT)

@@ -18,6 +18,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point
 from assur.kinematics.home import home_values
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
+from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 PARALLEL = 1e-9
@@ -87,7 +88,7 @@ def _pair(record: MechanismRecord, first: Rod, second: Rod) -> GeneralisedJoint 
     group = GeneralisedJoint(f"{first[0]}/{second[0]}", kind, tuple(joint.name for joint in around), near, far)
     home = home_values(record)
     corner, along, _, across = (point(record, joint.name, home) for joint in around)
-    area = np.linalg.norm(np.cross(along - corner, across - corner)) / characteristic_length(record) ** 2
+    area = np.linalg.norm(cross(along - corner, across - corner)) / characteristic_length(record) ** 2
     return group if area > PARALLEL and _open(record, group, home) < PARALLEL else None
 
 

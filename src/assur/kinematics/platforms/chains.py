@@ -25,6 +25,7 @@ from assur.kinematics.limbs.serial import (
 from assur.kinematics.limbs.solving import LimbSolutions, limb_solutions, size_of, told_apart
 from assur.kinematics.platforms.conditions import joined, series_conditions
 from assur.kinematics.platforms.poses import poses_under
+from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 FREEDOMS = 6
@@ -75,7 +76,7 @@ def _keeps_along(motion: ElementaryMotion, axis: FloatArray) -> bool:
     """Whether a motion shifts nothing along an axis."""
     if motion.kind == "slide":
         return bool(abs(motion.axis @ axis) < STRAIGHT)
-    return motion.kind == "turn" and bool(np.linalg.norm(np.cross(motion.axis, axis)) < STRAIGHT)
+    return motion.kind == "turn" and bool(np.linalg.norm(cross(motion.axis, axis)) < STRAIGHT)
 
 
 def held_series(limb: SerialLimb, held: Mapping[int, float]) -> SerialLimb:

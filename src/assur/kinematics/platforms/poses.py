@@ -26,6 +26,7 @@ from assur.numerics.homotopy import PathEnd, solve
 from assur.numerics.monodromy import all_solutions, random_complex
 from assur.numerics.path_tracking import polished
 from assur.numerics.quadratic_systems import quadratic
+from assur.numerics.rotations import cross
 from assur.results.reading import file_text
 
 FloatArray = NDArray[np.float64]
@@ -235,7 +236,7 @@ def start_from_nothing(seed: int) -> tuple[ComplexArray, ComplexArray]:
     """What the file holds, by monodromy: sums (6, 17) and a pose by chance, then all the other poses."""
     rng = np.random.default_rng(seed)
     e, p = random_complex(rng, 4), random_complex(rng, 3)
-    soma = np.array([*e, -(p @ e[1:]), *(e[0] * p + np.cross(p, e[1:]))])
+    soma = np.array([*e, -(p @ e[1:]), *(e[0] * p + cross(p, e[1:]))])
     sums = random_complex(rng, FREEDOMS * len(spheres())).reshape(FREEDOMS, -1).round(DIGITS)
     values = (products(soma[None]) @ spheres().T)[0]
     sums[:, -1] = -(sums[:, :-1] @ values[:-1]) / values[-1]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
-from assur.numerics.rotations import from_quaternion, to_quaternion
+from assur.numerics.rotations import cross, from_quaternion, to_quaternion
 
 FloatArray = NDArray[np.float64]
 Array = TypeVar("Array", FloatArray, NDArray[np.complex128])
@@ -38,7 +38,7 @@ def soma_of(frames: Frame) -> FloatArray:
     """
     e, p = to_quaternion(frames[0]), frames[1]
     w, v = e[:, :1], e[:, 1:]
-    soma = np.concatenate([e, -np.sum(p * v, axis=1, keepdims=True), w * p + np.cross(p, v)], axis=1)
+    soma = np.concatenate([e, -np.sum(p * v, axis=1, keepdims=True), w * p + cross(p, v)], axis=1)
     return np.asarray(soma / np.linalg.norm(soma, axis=1, keepdims=True))
 
 
@@ -101,11 +101,11 @@ def _product(first: Array, second: Array) -> Array:
     """Of quaternions (N, 4)."""
     a, b = first[:, 1:], second[:, 1:]
     scalar = first[:, :1] * second[:, :1] - np.sum(a * b, axis=1, keepdims=True)
-    return np.concatenate([scalar, first[:, :1] * b + second[:, :1] * a + np.cross(a, b)], axis=1)
+    return np.concatenate([scalar, first[:, :1] * b + second[:, :1] * a + cross(a, b)], axis=1)
 
 
 def _straight(soma: FloatArray) -> Frame:
     """vec(g e*) and vec(e* g), each (N, 3)."""
     e, g = soma[:, :4], soma[:, 4:]
-    even, odd = e[:, :1] * g[:, 1:] - g[:, :1] * e[:, 1:], np.cross(g[:, 1:], e[:, 1:])
+    even, odd = e[:, :1] * g[:, 1:] - g[:, :1] * e[:, 1:], cross(g[:, 1:], e[:, 1:])
     return even - odd, even + odd

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.frames import frames
 from assur.kinematics.answers.at_border import quantity_text
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ def axes_hint(record: MechanismRecord, values: FloatArray, joints: Sequence[str]
     }
     names = list(axes)
     angles = {
-        (one, other): float(np.arctan2(np.linalg.norm(np.cross(axes[one], axes[other])), abs(axes[one] @ axes[other])))
+        (one, other): float(np.arctan2(np.linalg.norm(cross(axes[one], axes[other])), abs(axes[one] @ axes[other])))
         for place, one in enumerate(names)
         for other in names[:place]
     }
