@@ -54,13 +54,17 @@ ROOM, TILT = 100, 30
 
 @dataclass(frozen=True)
 class Attempt:
-    """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes."""
+    """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes.
+
+    Of an `unchecked` one it is not known whether the file has faults.
+    """
 
     text: str
     record: MechanismRecord | None
     fault: str = ""
     clearance: float = 0.0
     unreadable: bool = False
+    unchecked: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,19 +79,19 @@ class DraftQuestion:
     coordinates: bool = False
 
     @stage("draft of one layout")
-    def attempt(self, layout: DraftLayout, *, moved: bool) -> Attempt:
+    def attempt(self, layout: DraftLayout, *, moved: bool, unchecked: bool = False) -> Attempt:
         """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
         drawn = draft(self.chains, layout)
         if self.coordinates:
-            return self._written(drawn, moved=moved)
+            return self._written(drawn, moved=moved, unchecked=unchecked)
         # where loops close for special dimensions alone, rounded ones may not do
         for rounded, polar in ((True, True), (True, False), (False, False)):
-            made = self._written(by_lengths(drawn, rounded=rounded, polar=polar), moved=moved)
+            made = self._written(by_lengths(drawn, rounded=rounded, polar=polar), moved=moved, unchecked=unchecked)
             if not made.unreadable:
                 break
         return made
 
-    def _written(self, drawn: Draft, *, moved: bool) -> Attempt:
+    def _written(self, drawn: Draft, *, moved: bool, unchecked: bool) -> Attempt:
         driven = _inputs(self.chains, drawn, self.inputs)
         first = Chosen(self.path.stem, (), (*LENGTHS, *ANGLES), False, driven, {}, {})
         still = self.topology.poc.r == 0
@@ -109,16 +113,19 @@ class DraftQuestion:
             )
             chosen = self._with_modes(drawn, chosen)
             record = self._read(drawn, chosen)
-            wrong = faults(record)
+            wrong = "" if unchecked else _fault(record)
             if wrong:
-                return Attempt("", None, f"{wrong[0].path}: {wrong[0].given}")
-            return Attempt(document(drawn, chosen), record, clearance=clearance(record))
+                return Attempt("", None, wrong)
+            return Attempt(document(drawn, chosen), record, clearance=clearance(record), unchecked=unchecked)
         except AssurError as error:
             return Attempt("", None, error.message, unreadable=True)
 
     def agrees(self, made: Attempt, reasons: dict[str, None]) -> bool:
-        """Whether a sound file has the topology of the chains; if not, why."""
+        """Whether a file is sound and has the topology of the chains; if not, why."""
         if made.record is None:
+            return False
+        if made.unchecked and (fault := _fault(made.record)):
+            reasons[fault] = None
             return False
         try:
             wrong = differences(self.topology, analyse(linkage(made.record), mode=self.mode))
@@ -163,6 +170,12 @@ class DraftQuestion:
                 return chosen
             counted.append(turned_round(knee) if max(bends) < 0 else knee)
         return dataclasses.replace(chosen, working=_working(drawn, counted))
+
+
+def _fault(record: MechanismRecord) -> str:
+    """The first fault of a file, empty where there is none."""
+    wrong = faults(record)
+    return f"{wrong[0].path}: {wrong[0].given}" if wrong else ""
 
 
 def _working(drawn: Draft, knees: Sequence[Knee]) -> dict[str, str]:

@@ -23,7 +23,9 @@ from assur.topology.facts import Topology
 from assur.topology.poc import PocSet
 
 ENOUGH = 5
-"""Where so many layouts of a group are not sound, the others are not tried."""
+"""Where so many layouts of a group are not sound or are singular, the others are not tried."""
+NOWHERE = 1e-6
+"""A home that is nearer to singular is so by its kind: six equal limbs evenly about an axis, whatever their sizes."""
 
 GOOD = 0.3
 """A home that is so far from singular is taken at once."""
@@ -88,9 +90,9 @@ def drafted(
     for moved, layouts in itertools.product((False, True), LAYOUTS):
         sound: list[Attempt] = []
         for number, layout in enumerate(layouts):
-            if number >= ENOUGH and not sound:
+            if number >= ENOUGH and all(made.clearance < NOWHERE for made in sound):
                 break
-            made = asked.attempt(layout, moved=moved)
+            made = asked.attempt(layout, moved=moved, unchecked=bool(sound))  # which of many is best comes first
             if made.fault or made.record is None:
                 reasons[made.fault] = None
                 continue
