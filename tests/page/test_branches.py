@@ -108,7 +108,9 @@ def test_modes_are_rows_of_signs():
     assert modes(load("gough_stewart"))["working"] == {"names": [], "all": [[]], "default": ""}
 
 
-def test_of_many_working_modes_the_first_have_their_assembly_modes_and_the_others_say_that_they_stand_alone(monkeypatch):
+def test_of_many_working_modes_the_first_have_their_assembly_modes_and_the_others_say_that_they_stand_alone(
+    monkeypatch,
+):
     monkeypatch.setattr(page, "WITH_ASSEMBLIES", 3)
     working = page.branches(load("planar_3rrr"))["working"]
     assert len(working) == 8

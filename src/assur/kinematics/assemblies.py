@@ -11,10 +11,11 @@ from assur.errors import Interrupted
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import RANK_GAP, assemble, closing_system
+from assur.kinematics.coaxial_screws import MergedPair, merged_pair
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.limbs.solving import LimbSolutions
-from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops, staying_parallel
+from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, solve_by_loops, staying_parallel
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.monodromy.assemblies_by_monodromy import solved_by_monodromy
@@ -93,7 +94,21 @@ def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed
     own = by_limbs(record, given, crossed=crossed)
     if own and own.complete:
         return own if crossed else _uncrossed(record, own)
+    pair = merged_pair(record, problem)
+    if pair and (merged := _with_pair(pair, problem, given, crossed)):
+        return merged
     return turn or solve_by_loops(record, **asked, crossed=crossed)
+
+
+def _with_pair(pair: MergedPair, problem: Problem, given: FloatArray, crossed: bool) -> LoopSolutions | None:
+    """By the mechanism in which a screw and what is coaxial to it are one joint; None where that is not complete."""
+    merged = _known(pair.record, problem, pair.given(given) if problem == "direct" else given, crossed)
+    joints = PositionQuestion(pair.whole, problem, given).closed(pair.expanded(merged.joints))
+    if not merged.complete or len(joints) != len(merged.joints):
+        return None
+    *_, joint = pair.record.joints
+    right = f"{joint} as one cylindrical joint: {merged.right}"
+    return replace(merged, joints=joints, right=right, limbs=())
 
 
 def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutions:

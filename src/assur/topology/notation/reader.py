@@ -26,6 +26,8 @@ MAX_DEPTH = 10
 MAX_JOINTS = 60
 
 _WRAPPER = re.compile(r"H?SOC(?:_?\d+|_\{\d+\})?(?=\s*(?:\\left)?\s*\\?\{)", re.ASCII)
+_UNDERLINE = re.compile(r"_[A-Z]|\\underline")
+DRIVEN = "what is driven is said beside the chains, as limb.joint counted from the base: --actuate 1.1,2.1"
 _ROUND_OPEN, _ROUND_CLOSE, _COMMA = re.compile(r"\("), re.compile(r"\)"), re.compile(",")
 
 
@@ -120,7 +122,7 @@ class _Reader:
         self.cursor.skip()
         joint = read_joint(self.cursor)
         if joint is None:
-            raise self.cursor.unexpected(f"a joint ({LETTERS})")
+            raise self.cursor.unexpected(f"a joint ({LETTERS})", DRIVEN if self.cursor.sees(_UNDERLINE) else "")
         self.literature = self.literature or joint.tag is not None
         self.joints += 1
         if self.joints > MAX_JOINTS:
