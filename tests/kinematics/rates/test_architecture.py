@@ -15,6 +15,7 @@ from assur.kinematics.rates.architecture import architecture_text, self_motion_d
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import doubts, faults
 from assur.model.registry import load_record
+from assur.report.report import report_html
 from six_legs import six_ups, three_rpr
 
 TURN = Rotation.from_euler("zyx", [20, 8, -5], degrees=True).as_matrix()
@@ -128,3 +129,13 @@ def test_a_singular_home_is_said_and_names_its_modes_beside_it(tmp_path):
     assert sorted(poses.labels[poses.exists]) == ["+", "-"]
     code = main(["singularity", str(path), "--pose", "102", "88", "3"])
     assert code == 0
+
+
+def test_the_report_says_it_once_and_that_listed_poses_are_some_of_infinitely_many(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(six_ups("own", *PLATFORMS["similar hexagons"], PLACE, TURN))
+    html = report_html(load_record(str(path)), resolution=8, figures=False)
+    assert html.count("The mechanism is architecturally singular") == 1
+    assert "moves through infinitely many, of which these are some" in html
+    assert html.count("joints that turn about themselves (8 times)") == html.count("joints that turn about themselves")
+    assert ">Dimensions<" not in html  # it has none by name

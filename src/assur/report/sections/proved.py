@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,9 +45,9 @@ def proof_words(findings: Findings, problem: Problem) -> str:
     model = "joint graph" if proof.complete_for == "joint_graph" else "reduced model"
     of_what = f" of the {model}" if proof.proved else ""
     said = f"{headline[0].upper()}{headline[1:]}{of_what}. By what right: {proof.right}."
-    doubts = "; ".join(f"{verdict.name}: {verdict.meaning}" for verdict in proof.undecided)
+    doubts = Counter(f"{verdict.name}: {verdict.meaning}" for verdict in proof.undecided)
     if doubts:
-        said += f" Undecided: {doubts}."
+        said += f" Undecided: {'; '.join(text + (f' ({n} times)' if n > 1 else '') for text, n in doubts.items())}."
     return f"{said} {_widths(findings, problem, proof)}" if len(proof) else said
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.answers.style import texts_of, titles_of
 from assur.kinematics.closure import mobility
+from assur.kinematics.rates.architecture import architecture_text
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import general
 from assur.model.closed_form import Factor
@@ -63,6 +64,8 @@ def _judged(findings: Findings) -> Section:
         "report, by the ranks of its closure and of Jp and Jq; lengths count in units of the characteristic length, so "
         "each measure is 0 where singular and at most 1."
     )
+    if architecture := architecture_text(findings.record):
+        said += f" The mechanism is {architecture}."
     types = ", ".join(f"{TYPES[name]} ({name})" for name in verdict.types) or "none"
     gains = "yes" if verdict.platform_gains else "no"
     items = [

@@ -9,6 +9,7 @@ from assur.kinematics.closure import mobility
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.units import is_mixed
+from assur.kinematics.status import Status
 from assur.report.findings import Findings
 from assur.report.sections.performance import SPREAD
 from assur.report.sections.position import noun, source_of
@@ -50,6 +51,8 @@ def _solutions(findings: Findings) -> list[Scalar]:
         where = f"at the {given} of {table.source if table else 'home'}"
         candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else source_of(answer)
         complete = f"{where}; complete for the {model}" if answer.complete else where
+        if problem == "direct" and any(solution.status is Status.self_motion for solution in answer):
+            complete += "; with the inputs held the platform moves through infinitely many, of which these are some"
         known, low, high = right(findings, problem)
         name = f"real {problem} solutions"
         scalars.append(Scalar(name, float(len(answer)), candidates, known, low=low, high=high, note=complete))
