@@ -2,10 +2,15 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.border import inputs_of
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import direct, inverse
 from assur.kinematics.validation.check import faults
 from assur.model.file.reader import read_text
 from assur.synthesis.drafting.drafting import drafted
@@ -123,3 +128,16 @@ def test_limbs_of_six_freedoms_are_taken_as_general():
 def test_a_limb_that_is_there_to_hold_the_platform_is_not_driven_where_the_others_do(chains, inputs):
     assert inputs_for(parse_chains(chains), None, "home")[0] == inputs
     assert assur.topology(chains).inputs == inputs
+
+
+@pytest.mark.parametrize(
+    "words", [("Orthoglide", ""), ("Tsai", ""), ("3-PRPaR", "upright rails"), ("3-RRPaR", "")], ids=" ".join
+)
+def test_limbs_with_parallelograms_keep_points_on_spheres_so_that_two_poses_belong_to_any_inputs(words):
+    entry = arranged(*words)
+    record = read_text(drafted(entry.chains, PATH, actuate=entry.actuate, mode=entry.mode).text, PATH)
+    values = home_values(record)
+    answer = direct(record, inputs_of(record, values) + 0.03)
+    assert answer.complete
+    assert len(np.unique(pose_of(record, answer.joints[answer.exists]).round(6), axis=0)) == 2
+    assert inverse(record, pose_of(record, values) + 3.0).complete

@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from assur.joints.revolute import REVOLUTE
 from assur.numerics.vectors import cross, dot
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
@@ -22,6 +23,9 @@ WIDTH = 60.0
 
 SPREAD = 150.0
 """Between the branches of an inner loop at its first link, half of it at its last."""
+
+ACROSS = 1e-9
+"""Cosine below which two axes are perpendicular: both are written."""
 
 ROUGH = (0.0, 1.0, -0.6, 0.3, -1.0, 0.7, -0.2, 0.9, -0.4)
 
@@ -146,9 +150,14 @@ class StationRow:
 def own_stations(elements: Sequence[Element]) -> list[int]:
     """How many stations each element has of its own: a P stands where its neighbour does, unless it is the last.
 
+    So does an R beside a P(4R) across whose axis its own lies: in the middle of that one's short link, as in the
+    Orthoglide. Each limb then keeps a point on a sphere; an R beside it would leave it on a torus.
+
     >>> from assur.topology.notation import parse_chain
     >>> own_stations(parse_chain("P[x] R[y] P[z] P(4R)[y] P[x]").elements)
     [0, 1, 0, 2, 1]
+    >>> own_stations(parse_chain("P[x] R[y] P(4R)[z] R[y]").elements)
+    [0, 0, 2, 0]
     """
     counts = []
     for place, element in enumerate(elements):
@@ -167,13 +176,37 @@ def stations(elements: Sequence[Element]) -> int:
 
 
 def neighbour(elements: Sequence[Element], place: int) -> int | None:
-    """The element where a P stands: the one before it, of the first the one behind it; None where it stands alone."""
-    if not slides(elements[place]) or place == len(elements) - 1:
+    """The element where another one stands, None where it stands alone.
+
+    That of a P is the one before it, of the first the one behind it; that of an R a P(4R) whose short link it is on.
+    """
+    if not slides(elements[place]):
+        return _on_short_link_of(elements, place)
+    if place == len(elements) - 1:
         return None
     before = next((other for other in range(place - 1, -1, -1) if not slides(elements[other])), None)
     behind = next((other for other in range(place + 1, len(elements)) if not slides(elements[other])), None)
     chosen = behind if before is None else before
-    return None if chosen is None or isinstance(elements[chosen], InnerLoop) else chosen
+    if chosen is None or isinstance(elements[chosen], InnerLoop):
+        return None
+    beside = _on_short_link_of(elements, chosen)
+    return chosen if beside is None else beside
+
+
+def _on_short_link_of(elements: Sequence[Element], place: int) -> int | None:
+    """The P(4R) before or behind an R whose axis lies across that one's."""
+    joint = elements[place]
+    if not isinstance(joint, ChainJoint) or joint.type is not REVOLUTE or joint.point or joint.general:
+        return None
+    for beside in (place - 1, place + 1):
+        element = elements[beside] if 0 <= beside < len(elements) else None
+        if isinstance(element, Parallelogram) and _hinged_across(element, joint.axes[0]):
+            return beside
+    return None
+
+
+def _hinged_across(element: Parallelogram, axis: Vector) -> bool:
+    return element.kind == "4R" and not element.general and abs(dot(element.axis, axis)) < ACROSS
 
 
 def slides(element: Element) -> bool:
