@@ -149,6 +149,10 @@ OWN = {
     "2UPR-RPU": ["2UPR-RPU"],
     "Exechon": ["Exechon"],
     "6-RUS": ["6-RUS"],
+    "Tsai": ["Tsai"],
+    "Orthoglide": ["Orthoglide"],
+    "3-PRPaR": ["3-PRPaR", "upright rails"],
+    "3-RUU": ["3-RUU"],
     "six bars": ["--chain", "R[z] R[z] R[z]", "--chain", "R[z] R[z]"],
     "eight bars": ["--chain", "{R[z] R[z] | R[z] R[z]} R[z] R[z]", "--chain", "R[z] R[z]"],
     "2T1R hybrid": ["--chain", "{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "--chain", "P[x] R[y] R[y] R[z]"],
@@ -178,6 +182,13 @@ def own(request, tmp_path):
 def test_a_name_of_a_draft_changes_at_singularities_alone(own, problem):
     shares = changes(own, problem, lambda values: signs_of(own, problem, values), 20, 60)
     assert np.max(shares, initial=0.0) < CROSSED
+
+
+@pytest.mark.parametrize("own", ["Tsai", pytest.param("3-RUU", marks=pytest.mark.deep)], indirect=True)
+def test_a_limb_whose_screws_span_no_one_space_has_a_sign_at_those_that_leave_a_joint_at_rest(own):
+    """The knee of an overconstrained limb: a P(4R) in it may stand on either side, what looks alike bears one name."""
+    signs = distinguishing_signs(own, "inverse")
+    assert [{name.partition(".")[0] for name in sign.joints} for sign in signs] == [{"leg1"}, {"leg2"}, {"leg3"}]
 
 
 @pytest.mark.deep

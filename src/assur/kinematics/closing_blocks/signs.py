@@ -46,6 +46,9 @@ SAME_SPACE = 1e-4
 PAIRS = 14
 """Links up to which two of them are held at once, in search of factors."""
 
+MOST_RATES = 9
+"""Motions of a group up to which single joints of it are left at rest, in search of factors: each takes some 10 ms."""
+
 
 @dataclass(frozen=True, eq=False)
 class BlockSign:
@@ -221,9 +224,33 @@ def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns
 def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
     whole = _sign(group.whole, screws)
     blocks = group.blocks if whole is not None else group.blocks[-1:]
-    along = None if whole is not None else _sign(group.whole, screws, _motion_rates(group.whole, screws))
-    signs = [whole, along, *(_sign(block, screws) for block in blocks)]
+    signs = [whole, *(_along_motions(group.whole, screws) if whole is None else ())]
+    signs += [_sign(block, screws) for block in blocks]
     yield from (sign for sign in signs if sign is not None)
+
+
+def _along_motions(block: ClosingBlock, screws: ScrewColumns) -> Iterator[BlockSign | None]:
+    """A block's sign at rates of motions, and its factors: at those that leave a joint at rest.
+
+    Where the screws at these span one space, too, the determinant is the product of theirs and of what is left.
+    """
+    rates = _motion_rates(block, screws)
+    whole = _sign(block, screws, rates)
+    yield whole
+    if 1 < rates.shape[1] <= MOST_RATES:
+        own = replace(block, spins=whole.block.spins if whole else ())
+        for row in _directions(rates):
+            yield _sign(own, screws, rates @ np.linalg.svd(row[None])[2][1:].T)
+
+
+def _directions(rows: FloatArray) -> list[FloatArray]:
+    """One of each direction, whatever its sense, among rows (k, d) that are not zero."""
+    kept: list[FloatArray] = []
+    for row in rows:
+        size = float(np.linalg.norm(row))
+        if size > SMALL and all(abs(row @ other) < (1.0 - SMALL) * size for other in kept):
+            kept.append(row / size)
+    return kept
 
 
 def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = None) -> BlockSign | None:

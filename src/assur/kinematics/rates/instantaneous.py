@@ -166,5 +166,7 @@ def _oriented(jp: FloatArray, jq: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _smallest(matrix: FloatArray) -> FloatArray:
-    """The smallest singular value (...) of a matrix."""
+    """The smallest singular value (...) of a matrix; 0 of no rows, which hold nothing."""
+    if not min(matrix.shape[-2:]):
+        return np.zeros(matrix.shape[:-2])
     return np.asarray(np.linalg.svd(matrix, compute_uv=False)[..., -1])
