@@ -14,7 +14,6 @@ from assur.joint_graph.programs import Outputs, program
 from assur.kinematics.pose import platform_moves, platform_numbers
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS
-from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -46,7 +45,7 @@ class PoseLine:
         rotation = np.moveaxis(numbers[frame.rows("platform")][:9].reshape(3, 3, len(t)), -1, 0)
         place = numbers[frame.rows("platform")][9:].T / length
         moves = frame.matrix("move", numbers, (6, count))
-        turned = cross(
+        turned = np.cross(
             moves[:, None, :3], rotation.swapaxes(1, 2)[..., None], axisa=2, axisb=2, axisc=2
         )  # (N, j, i, n)
         gaps, slopes, rates = [], [], []
