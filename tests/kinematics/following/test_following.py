@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 
 import assur
+from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble, closure_error
 from assur.kinematics.following.following import follow
+from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
+from assur.model.registry import load_record
 from assur.singularity.examples import singular_examples
 from work import calls
 
@@ -371,3 +374,16 @@ def test_a_start_that_is_no_assembly_is_refused_with_its_gap():
         follow(mechanism, mechanism.home_values + 0.1, poses=[0.0, 200.0])
     with pytest.raises(assur.UsageError, match="one configuration is followed at a time"):
         follow(mechanism, np.tile(mechanism.home_values, (2, 1)), poses=[0.0, 200.0])
+
+
+def test_a_way_that_is_shorter_than_rounding_is_gone_in_the_longest_steps(tmp_path):
+    """It ran on in steps that each saw nothing but noise, for minutes."""
+    path = tmp_path / "own.toml"
+    rails = [f"P[{a}] R[{a}] R[{a}] R[{b}] R[{b}]" for a, b in ("xy", "xy", "yx", "yx")]
+    assert main(["new", str(path), *(word for rail in rails for word in ("--chain", rail))]) == 0
+    record = load_record(str(path))
+    home = home_values(record)
+    inputs = inputs_of(record, home)
+    path = follow(record, home, inputs=inputs + 1e-10 * np.arange(1, 5), tolerance=1e-3)
+    assert path.stopped is None
+    assert len(path.shares) == 21

@@ -195,7 +195,8 @@ class RankGuard:
         point = self._point(places, other)
         if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < SAFE * point.noise:
             return self._refused(at, ends, Blocked("lost"))
-        after = step * min(2.0, AIM * CLOSE * moved / away if away > 0.0 else 2.0)
+        bent = away - last.noise  # a way as short as the noise is straight for all that can be seen
+        after = step * min(2.0, AIM * CLOSE * moved / bent if bent > 0.0 else 2.0)
         if kept < MERGING and point.own.needs(gaps):
             # near a merging the square of the singular value goes to zero linearly
             point = dataclasses.replace(point, ahead=step * kept**2 / (1.0 - kept**2))
