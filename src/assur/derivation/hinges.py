@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.derivation.exact_vectors import ExactVectors
 from assur.derivation.not_derived import NotDerivedError
@@ -17,6 +18,7 @@ from assur.kinematics.home import home_values
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics.vectors import Matrix, Vector, apply, product, scaled, subtract, transposed
 
+FloatArray = NDArray[np.float64]
 HOME = 1e-9
 """Rotations at home are known to rounding."""
 
@@ -111,16 +113,29 @@ def _of_parallelograms(symbols: GivenSymbols) -> Iterator[RigidPair | Hinge]:
         elif group.kind in ("P(4S)", "P(2US)"):
             near, far = (point_on(symbols, record.joints[name], parent) for name in _near(record, group))
             axis = ExactVectors(symbols.witness).unit(subtract(far, near))
-            yield Hinge(parent, child, _as_at_home(record, parent, child), axis, (group.name,))
+            yield Hinge(
+                parent, child, _as_at_home(record, parent, child, _short_link(record, group)), axis, (group.name,)
+            )
             if group.kind == "P(2US)":
                 first, second = rods_of(record, group)
                 yield RigidPair(first, second, _as_at_home(record, first, second), (group.name,))
 
 
-def _as_at_home(record: MechanismRecord, first: str, second: str) -> Matrix:
-    """The orientation of one link against another at home, which must be that of frames that are parallel."""
+def _short_link(record: MechanismRecord, group: GeneralisedJoint) -> FloatArray:
+    """The direction (3,), in floats, of the line between the rods' joints on the parent."""
+    joints = [record.joints[name] for name in _near(record, group)]
+    near, far = (joint.at if joint.parent == group.parent else joint.child_at for joint in joints)
+    return np.asarray((far - near) / np.linalg.norm(far - near))
+
+
+def _as_at_home(record: MechanismRecord, first: str, second: str, axis: FloatArray | None = None) -> Matrix:
+    """The orientation of one link against another at home, which must be that of frames that are parallel.
+
+    Where the one turns against the other about an axis (3,) they must be so after some turn about it.
+    """
     placed = frames(record, home_values(record))
-    if np.max(np.abs(placed[first][0].T @ placed[second][0] - np.eye(3))) > HOME:
+    kept = np.eye(3) if axis is None else axis[:, None]
+    if np.max(np.abs(placed[first][0].T @ placed[second][0] @ kept - kept)) > HOME:
         raise NotDerivedError(f"{first} and {second} stay parallel, but their frames are not")
     return UNTURNED
 

@@ -224,21 +224,24 @@ def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns
 def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
     whole = _sign(group.whole, screws)
     blocks = group.blocks if whole is not None else group.blocks[-1:]
-    signs = [whole, *(_along_motions(group.whole, screws) if whole is None else ())]
+    signs = [*_along_motions(group.whole, screws, parts=whole is None), whole]
     signs += [_sign(block, screws) for block in blocks]
     yield from (sign for sign in signs if sign is not None)
 
 
-def _along_motions(block: ClosingBlock, screws: ScrewColumns) -> Iterator[BlockSign | None]:
-    """A block's sign at rates of motions, and its factors: at those that leave a joint at rest.
+def _along_motions(block: ClosingBlock, screws: ScrewColumns, *, parts: bool) -> Iterator[BlockSign | None]:
+    """A block's sign at rates of motions where these are fewer, and with `parts` at those that leave a joint at rest.
 
-    Where the screws at these span one space, too, the determinant is the product of theirs and of what is left.
+    Where screws depend on each other at some rates, they do at all: so these are singular there, too. Rods that stay
+    parallel leave a platform its translations; whether it could turn as well is another factor of the whole.
     """
     rates = _motion_rates(block, screws)
-    whole = _sign(block, screws, rates)
-    yield whole
-    if 1 < rates.shape[1] <= MOST_RATES:
-        own = replace(block, spins=whole.block.spins if whole else ())
+    if not parts and rates.shape[1] + len(block.spins) >= len(block.columns):
+        return
+    along = _sign(block, screws, rates)
+    yield along
+    if parts and 1 < rates.shape[1] <= MOST_RATES:
+        own = replace(block, spins=along.block.spins if along else ())
         for row in _directions(rates):
             yield _sign(own, screws, rates @ np.linalg.svd(row[None])[2][1:].T)
 
