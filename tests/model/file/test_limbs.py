@@ -132,7 +132,7 @@ CASES: list[tuple[str, str, list[str]]] = [
       "allowed here: chain, generalised, home, inputs, joints, links, points, repeat", "? did you mean 'home'?"]),
     ("B1 = [5, 6]\n", "",
      ["30: limbs.leg.home: lacks B1; every joint needs a value near one assembled configuration",
-      "? add B1 = 0, or a better guess"]),
+      "? add B1 = [0, 0], or a better guess"]),
     ("B1 = [5, 6]", "B1 = 5", ["32: limbs.leg.home.B1: 1 values; allowed: 2 (first, second)"]),
     ("[limbs.leg.home]\nA", "[limbs.leg.home]\nD = 3\nA",
      ["31: limbs.leg.home.D: unknown joint 'D'; there is: A, B1, B2, C1, C2, M"]),

@@ -94,11 +94,14 @@ def build_home(tables: Tables, scope: Scope, geometry: JointVectors) -> FloatArr
 
 
 def _check_complete(given: set[str], tables: Tables, scope: Scope) -> None:
-    lacking: dict[KeyPath, list[str]] = {}
+    lacking: dict[KeyPath, dict[str, str]] = {}
     for name, placed in tables.joints.items():
         if name not in given:
             path: KeyPath = ("limbs", placed.instance.limb, "home") if placed.instance else ("home",)
-            lacking.setdefault(path, []).append(placed.local)
-    for path, names in lacking.items():
+            count = len(JOINT_TYPES[placed.entry.type].components)
+            zeros = "0" if count == 1 else f"[{', '.join(['0'] * count)}]"
+            lacking.setdefault(path, {})[placed.local] = f"{placed.local} = {zeros}"
+    for path, guesses in lacking.items():
         allowed = "every joint needs a value near one assembled configuration"
-        scope.faults.add(path, f"lacks {listed(set(names))}", allowed, f"add {names[0]} = 0, or a better guess")
+        guess = next(iter(guesses.values()))
+        scope.faults.add(path, f"lacks {listed(set(guesses))}", allowed, f"add {guess}, or a better guess")
