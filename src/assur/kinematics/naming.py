@@ -113,8 +113,10 @@ def signs_at(record: MechanismRecord, problem: Problem, joints: FloatArray, zero
     from assur.kinematics.closing_blocks.columns import ScrewColumns  # which names in a file do without
     from assur.kinematics.closing_blocks.kept import kept_signs
 
-    screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])))
-    signs = [sign.signs(screws) for sign in kept_signs(record, problem)] if len(screws.values) else []
+    own = kept_signs(record, problem)
+    platform = any(sign.needs_platform(record) for sign in own)
+    screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])), platform)
+    signs = [sign.signs(screws) for sign in own] if len(screws.values) else []
     columns = np.array(signs, dtype=np.int8).reshape(len(sign_meanings(record, problem)), len(screws.values)).T
     return columns.reshape(*joints.shape[:-1], columns.shape[-1])
 

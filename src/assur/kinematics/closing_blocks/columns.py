@@ -76,15 +76,21 @@ class ScrewColumns:
     Columns are the joint coordinates, then what the pose leaves free of the platform. Velocities count in
     characteristic lengths. A ball joint's are rotations about the base's axes through its centre, which have the same
     orientation everywhere.
+
+    Attributes:
+        record: the mechanism.
+        values: (N, n) joint values.
+        platform: whether the platform's are there; to know which it has costs assemblies by chance.
     """
 
     record: MechanismRecord
     values: FloatArray
+    platform: bool = True
 
     @cached_property
     def few(self) -> ScrewColumns:
         """The first of these assemblies."""
-        return self if len(self.values) <= FEW else ScrewColumns(self.record, self.values[:FEW])
+        return self if len(self.values) <= FEW else ScrewColumns(self.record, self.values[:FEW], self.platform)
 
     @cached_property
     def in_base(self) -> FloatArray:
@@ -147,6 +153,8 @@ class ScrewColumns:
     @property
     def _open_platform(self) -> FloatArray:
         """Screws (N, 6, k) of the platform that the pose leaves free."""
+        if not self.platform:
+            return np.zeros((len(self.values), 6, 0))
         rotation, origin = self._frames[self.record.platform.link]
         rotation = np.broadcast_to(rotation, (len(self.values), 3, 3))
         point = rotation @ self.record.platform.point + origin

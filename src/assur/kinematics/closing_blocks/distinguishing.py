@@ -58,6 +58,11 @@ class ModeSign:
         """Those of all factors."""
         return tuple(dict.fromkeys(name for factor in self.factors for name in factor.joints))
 
+    def needs_platform(self, record: MechanismRecord) -> bool:
+        """Whether a factor's block has columns of what the pose leaves free of the platform."""
+        blocks = [factor.block for factor in self.factors if isinstance(factor, BlockSign)]
+        return any(column >= len(record.coordinates) for block in blocks for column in block.columns)
+
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where one of the factors vanishes."""
         signs: SignArray = np.prod([factor.signs(screws) for factor in self.factors], axis=0, dtype=np.int8)

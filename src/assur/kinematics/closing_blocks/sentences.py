@@ -47,7 +47,7 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     >>> print(sentence(record, distinguishing_signs(record, "inverse")[0]))
     leg1.B lies on the right of the line from leg1.A to leg1.C
     """
-    screws = ScrewColumns(record, home_values(record)[None])
+    screws = ScrewColumns(record, home_values(record)[None], sign.needs_platform(record))
     if len(sign.factors) == 1:
         factor = sign.factors[0]
         if isinstance(factor, StrokeSign):
