@@ -113,9 +113,8 @@ def _of_parallelograms(symbols: GivenSymbols) -> Iterator[RigidPair | Hinge]:
         elif group.kind in ("P(4S)", "P(2US)"):
             near, far = (point_on(symbols, record.joints[name], parent) for name in _near(record, group))
             axis = ExactVectors(symbols.witness).unit(subtract(far, near))
-            yield Hinge(
-                parent, child, _as_at_home(record, parent, child, _short_link(record, group)), axis, (group.name,)
-            )
+            after = _as_at_home(record, parent, child, _short_link(record, group))
+            yield Hinge(parent, child, after, axis, (group.name,))
             if group.kind == "P(2US)":
                 first, second = rods_of(record, group)
                 yield RigidPair(first, second, _as_at_home(record, first, second), (group.name,))

@@ -51,10 +51,9 @@ class MergedPair:
         if self.driven < 0:
             return inputs
         own = self.whole.inputs[self.driven]
+        lead = self.rates[0, self.pair.index(own.coordinate.index)]
         answer = inputs.copy()
-        answer[self.driven] = self.rates[0, self.pair.index(own.coordinate.index)] * own.joint_value(
-            answer[self.driven]
-        )
+        answer[self.driven] = lead * own.joint_value(inputs[self.driven])
         return answer
 
     def expanded(self, joints: FloatArray) -> FloatArray:
