@@ -265,6 +265,14 @@ def test_rules_and_twists_agree_in_translation_mode(chains):
         # outer axes that could turn against each other, and do not
         (["R[x] R[y] R[y] P[x] R[x]", "R[y] R[y]"], "translation", (2, 1, 2)),
         (["R[x] R[x]", "R[z] R[z] P[y] U[x,z]"], "translation", (0, 0, 0)),
+        # an axis behind a spherical joint that turns only against it, in one limb and in two
+        (["S P[y] R[0.3,0.5,0.8]", "S P[y]"], "translation", (3, 2, 3)),
+        (["S P[y] R[0.3,0.5,0.8]", "S P[y] R[0.3,0.5,0.8]", "S P[y]"], "translation", (2, 1, 2)),
+        # axes before a spherical joint: at rest the limb slides along them, or moves within itself
+        (["R[x] P[u] S", "P[u] R[y] R[y] R[y] S", "R[x] P[u]"], "translation", (1, 0, 1)),
+        (["P[u] R[y] P[u] S", "U[x,y]"], "translation", (1, 1, 1)),
+        # two limbs whose outer axes turn for each other's sake: neither turns where both rest
+        (["R[u] C[x] R[u]", "R[u] C[x] R[u]", "R[u] R[u] P[x] P[u] R[x] R[x]"], "translation", (3, 2, 3)),
         # parallel slides between axes that never turn: displaced at will the slides would part
         (["R[z] P[-0.5,0.8,1.1] R[z]"] * 3, "free", (1, 0, 1)),
         (["R[z] P[-0.5,0.8,1.1] R[z]"] * 3, "translation", (1, 0, 1)),
@@ -274,6 +282,7 @@ def test_rules_and_twists_agree_in_translation_mode(chains):
     ],
 )
 def test_special_positions_that_last(limbs, mode, numbers):
+    limbs = [limb.replace("u", "0.3,0.5,0.8") for limb in limbs]
     assert _numbers(_platform(limbs, mode)) == numbers
     assert _by_twists(parse_chains(limbs), mode) == numbers
 

@@ -8,22 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import cached_property, reduce
+from itertools import combinations, product, takewhile
 
 from assur.topology.directions import parallel
 from assur.topology.symbolic.blocks import Block, Structure
 from assur.topology.symbolic.blocks import structure as gathered
 from assur.topology.symbolic.constraints import Resisted, resisted
-from assur.topology.symbolic.elementary import Slide, Turn
+from assur.topology.symbolic.elementary import Elementary, Slide, Turn
 from assur.topology.symbolic.motion import Limb, Motion, motion_at_home, motion_of
 from assur.topology.symbolic.orientations import (
     EVERY,
     UNTURNED,
     Orientations,
     at_rest,
-    axes_around,
+    axes_that_may_rest,
     orientations,
     returns,
+    sphere_of,
     without_axes,
     without_still_axes,
 )
@@ -148,37 +150,82 @@ def _moving_as(motion: Motion, kept: Structure) -> Motion:
 def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     """Limbs whose platform keeps its orientation.
 
-    First and last axes of a limb that turn against each other do so only where the platform's translations need it,
-    or where the limb moves within itself.
+    Axes of a limb that turn only against each other, as its first and last, or against a spherical joint, do so only
+    where the platform's translations need it, or where the limb moves within itself.
     """
     assembly, home, sliding = assembled(limbs, UNTURNED), _at_home(limbs), _sliding(limbs)
     if isinstance(assembly, Refusal):
         return assembly
     if isinstance(sliding, HeldLimbs) and isinstance(home, HeldLimbs) and _goes_on(home, sliding):
         return sliding
-    motions, moved = list(assembly.limbs), [limb.translations for limb in assembly.limbs]
-    for index, motion in enumerate(assembly.limbs):
-        around = axes_around(motion.structure) if motion.structure else None
-        if motion.structure is None or around is None:
-            continue
-        rest = without_axes(motion.structure, around)
-        fewer = [*moved[:index], translations(rest), *moved[index + 1 :]]
-        if _common_translations(fewer) == _common_translations(moved) and _idle(motion, around, rest) == motion.passive:
-            kept = at_rest(motion.structure, around)
-            motions[index] = _moving_as(motion, kept)
-            moved = fewer
-    return _together(motions, UNTURNED)
+    return _together([limb.motion for limb in _resting(assembly.limbs)], UNTURNED)
 
 
-def _common_translations(spans: Sequence[Span]) -> int:
-    return reduce(Span.meet, spans).dim
+def _resting(limbs: Sequence[Motion]) -> Sequence[_RestingAxes]:
+    """Limbs with as many axes at rest as can be.
+
+    They are tried together: what two limbs turn for each other's sake, neither turns where both rest.
+    """
+    choices = [_resting_axes(limb) for limb in limbs]
+    moving = [choice[0] for choice in choices]
+    free = _common_translations(moving)
+    most_at_rest = sorted(product(*choices), key=lambda chosen: -sum(len(limb.axes) for limb in chosen))
+    return next(chosen for chosen in most_at_rest if _common_translations(chosen) >= free)
 
 
-def _idle(motion: Motion, around: Block, rest: Structure) -> int:
-    """Freedoms of a limb that do not move its end link, without the axes around the rest."""
-    chain = motion.limb.chain if motion.limb else ()
-    removed = sum(isinstance(part, Turn) and parallel(part.direction, around.direction) for part in chain)
-    return motion.freedoms - removed - translations(rest).dim - rotations(rest).dim
+def _resting_axes(limb: Motion) -> list[_RestingAxes]:
+    """A limb with none of its axes at rest, and with every choice of those that turn only against each other."""
+    axes = axes_that_may_rest(limb.structure) if limb.structure else ()
+    choices = [chosen for count in range(1, len(axes) + 1) for chosen in combinations(axes, count)]
+    resting = [reduce(_RestingAxes.with_axes, chosen, _RestingAxes(limb, limb.structure)) for chosen in choices]
+    return [_RestingAxes(limb, limb.structure), *(chosen for chosen in resting if chosen.idle >= limb.passive)]
+
+
+@dataclass(frozen=True)
+class _RestingAxes:
+    """A limb with axes at rest that could turn: what moves its end link is a chain without them."""
+
+    limb: Motion
+    moving: Structure | None
+    axes: tuple[Block, ...] = ()
+
+    def with_axes(self, axes: Block) -> _RestingAxes:
+        """The same with more axes at rest."""
+        moving = without_axes(self.moving, axes) if self.moving else None
+        return _RestingAxes(self.limb, moving, (*self.axes, axes))
+
+    @cached_property
+    def translations(self) -> Span:
+        """Those of the end link."""
+        return translations(self.moving) if self.axes and self.moving else self.limb.translations
+
+    @property
+    def idle(self) -> int:
+        """Freedoms of the limb that do not move its end link."""
+        at_rest = sum(self._turns(axes) for axes in self.axes)
+        rotating = rotations(self.moving).dim if self.moving else 0
+        return self.limb.freedoms - at_rest - self.translations.dim - rotating
+
+    def _turns(self, axes: Block) -> int:
+        """How many of the limb's turns are about some axes: where it has a spherical joint, on their side of it."""
+        chain: Sequence[Elementary] = self.limb.limb.chain if self.limb.limb else ()
+        structure = self.limb.structure
+        sphere = {line.name for block in sphere_of(structure) for line in block.lines} if structure else set()
+        if structure is not None and sphere:
+            outwards = chain[::-1] if axes in structure.beyond else chain
+            chain = tuple(takewhile(lambda part: part.name not in sphere, outwards))
+        return sum(isinstance(part, Turn) and parallel(part.direction, axes.direction) for part in chain)
+
+    @property
+    def motion(self) -> Motion:
+        """The limb's, whose axes at rest still could turn."""
+        if self.limb.structure is None:
+            return self.limb
+        return _moving_as(self.limb, reduce(at_rest, self.axes, self.limb.structure)) if self.axes else self.limb
+
+
+def _common_translations(limbs: Sequence[_RestingAxes]) -> int:
+    return reduce(Span.meet, (limb.translations for limb in limbs)).dim
 
 
 def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> HeldLimbs | Refusal:

@@ -134,23 +134,35 @@ def _wrapped(structure: Structure, blocks: Sequence[Block], net: bool) -> Struct
     return replace(structure, items=items)
 
 
-def axes_around(structure: Structure) -> Block | None:
-    """The first and last axes of a chain that were made one block around the rest."""
-    for item in structure.items:
-        if isinstance(item, Block) and any(isinstance(other, Block) for other in item.inner):
-            return item
-    return None
+def axes_that_may_rest(structure: Structure) -> tuple[Block, ...]:
+    """Axes of a chain with a held end link that turn only against others.
+
+    They are the first and last axes that were made one block around the rest, and axes on either side of a spherical
+    joint, which turns back what they turn.
+    """
+    blocks = [item for item in structure.items if isinstance(item, Block)]
+    around = (block for block in blocks if any(isinstance(other, Block) for other in block.inner))
+    sphere = sphere_of(structure)
+    before = blocks[: -len(sphere)] if sphere else ()
+    behind = (item for item in structure.beyond if isinstance(item, Block))
+    return (*around, *before, *behind)
 
 
-def at_rest(structure: Structure, around: Block) -> Structure:
-    """The chain where the axes around the rest do not turn it, although they could."""
-    items = _in_place_of(around, (replace(around, inner=()), *around.inner), structure)
-    return replace(structure, items=items)
+def sphere_of(structure: Structure) -> tuple[Block, ...]:
+    """The three blocks, last among the items, that turn a held end link back; empty without them."""
+    blocks = tuple(item for item in structure.items if isinstance(item, Block))
+    last = _last_of_sphere(blocks)
+    return blocks[-3:] if last is not None and last is blocks[-1] else ()
 
 
-def without_axes(structure: Structure, around: Block) -> Structure:
-    """The chain without the axes around the rest."""
-    return replace(structure, items=_in_place_of(around, around.inner, structure))
+def at_rest(structure: Structure, axes: Block) -> Structure:
+    """The chain where axes that may rest do not turn it, although they could."""
+    return _with_items_in_place_of(axes, (replace(axes, inner=(), net=False), *axes.inner), structure)
+
+
+def without_axes(structure: Structure, axes: Block) -> Structure:
+    """The chain without axes that may rest."""
+    return _with_items_in_place_of(axes, axes.inner, structure)
 
 
 def without_still_axes(structure: Structure) -> Structure:
@@ -162,9 +174,13 @@ def without_still_axes(structure: Structure) -> Structure:
     return replace(structure, items=tuple(items))
 
 
-def _in_place_of(block: Block, items: tuple[Item, ...], structure: Structure) -> tuple[Item, ...]:
-    place = next(index for index, item in enumerate(structure.items) if item is block)
-    return (*structure.items[:place], *items, *structure.items[place + 1 :])
+def _with_items_in_place_of(block: Block, items: tuple[Item, ...], structure: Structure) -> Structure:
+    """The chain with other items where a block stands, before its spherical joint or behind it."""
+
+    def replaced(among: tuple[Item, ...]) -> tuple[Item, ...]:
+        return tuple(own for item in among for own in (items if item is block else (item,)))
+
+    return replace(structure, items=replaced(structure.items), beyond=replaced(structure.beyond))
 
 
 def _last_of_sphere(blocks: Sequence[Block]) -> Block | None:
