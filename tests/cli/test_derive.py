@@ -39,3 +39,18 @@ def test_the_file_that_is_written_makes_a_mechanism_of_one_s_own_exact(tmp_path,
 @pytest.mark.parametrize("words", [["--problem", "neither"], ["--problem", "direct", "-o", "closed_form.py"]])
 def test_words_that_make_no_sense_are_refused(words):
     assert main(["derive", "fivebar", *words]) == 2
+
+
+def test_the_data_says_reasons_unknowns_choices_and_what_is_assumed(assur_cli):
+    problem = assur_cli("derive", "zeng2019", "--problem", "direct", "--json").json["problems"][0]
+    (reason,) = problem["reasons"]
+    assert (reason["link"], reason["carrier"], reason["axes"]) == ("link11", "base", ["x", "y"])
+    assert reason["joints"] == [["B1", "C1"], ["D2", "D1"]]
+    assert problem["assumed"] == ["Pa1", "Pa2"]
+    first, *_, last = problem["sets"]
+    assert first["unknowns"] == [["cos_link9", "sin_link9"], ["cos_link10", "sin_link10"]]
+    for own in problem["sets"]:
+        (choice,) = own["choices"]
+        assert own["roots"] == 2
+        assert own["formulas"][choice["root"]] == f"sqrt({choice['radicand']})"
+    assert last["conditions"] == ["N3 != 0"]

@@ -13,12 +13,12 @@ from assur.cli.paths import output_file
 from assur.derivation.derivation import derive
 from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
-from assur.derivation.reasons import sentences
+from assur.derivation.reasons import direction, sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
-from assur.results.answers.derivation import DerivationAnswer, DerivedProblem, DerivedSet
+from assur.results.answers.derivation import DerivationAnswer, DerivedChoice, DerivedProblem, DerivedReason, DerivedSet
 from assur.results.files import write_whole
 
 
@@ -40,22 +40,30 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
     try:
         solution = analytic_solution(record, problem)
     except NotDerivedError as error:
-        return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), {})
+        return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
     sets = tuple(
         DerivedSet(
             tuple(direction.name for direction in part.directions),
+            tuple(tuple(unknown.name for unknown in direction.unknowns) for direction in part.directions),
             tuple(f"{value_of(form)} = 0" for form in part.equations),
             tuple(f"{value_of(form)} = 0" for form in part.lines),
             tuple(f"{condition} != 0" for condition in part.conditions),
             {own.symbol.name: str(own.formula) for own in part.definitions},
+            tuple(DerivedChoice(own.symbol.name, own.radicand.name, str(own.quantity)) for own in part.roots),
             2 ** len(part.roots),
         )
         for part in solution.sets
     )
-    reasons = tuple(sentences(solution.placed))
     return DerivedProblem(
-        problem, "derived", "", solution.branches, solution.closes(), reasons, sets, dict(_results(solution))
-    )
+        problem, "derived", "", solution.branches, solution.closes(), tuple(_reasons(solution)), (*record.generalised,),
+        sets, {own.symbol.name: str(own.formula) for own in solution.lengths}, dict(_results(solution)),
+    )  # fmt: skip
+
+
+def _reasons(solution: AnalyticSolution) -> Iterator[DerivedReason]:
+    for text, own in zip(sentences(solution.placed), solution.placed.reasons, strict=True):
+        axes = direction(own.first), direction(own.second)
+        yield DerivedReason(text, own.link, own.carrier, axes, (own.first_joints, own.second_joints))
 
 
 def _results(solution: AnalyticSolution) -> Iterator[tuple[str, str]]:
@@ -69,7 +77,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     for part in data.problems:
         if part.status == "derived":
             yield heading(f"{data.mechanism}, {part.problem}: {part.branches} branches")
-            yield from (f"{k}. {text}" for k, text in enumerate(part.reasons, start=1))
+            yield from (f"{k}. {own.text}" for k, own in enumerate(part.reasons, start=1))
             for own in part.sets:
                 yield ""
                 yield f"{' and '.join(own.links)}: {own.roots} roots"
