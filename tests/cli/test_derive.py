@@ -54,3 +54,51 @@ def test_the_data_says_reasons_unknowns_choices_and_what_is_assumed(assur_cli):
         assert own["roots"] == 2
         assert own["formulas"][choice["root"]] == f"sqrt({choice['radicand']})"
     assert last["conditions"] == ["N3 != 0"]
+
+
+@pytest.fixture
+def drafted(assur_cli, tmp_path):
+    """A five-bar of one's own, whose angles are dimensions, before and after its closed form was derived."""
+    file = tmp_path / "my.toml"
+    assur_cli("new", str(file), "--chain", "R[z] R[z] R[z]", "--chain", "R[z] R[z]")
+    before = assur_cli("direct", str(file), "--json", "--", "10", "5").json
+    assert assur_cli("derive", str(file), "-o", str(tmp_path / "closed_form.py")).code == 0
+    return file, before
+
+
+def test_a_draft_keeps_its_names_and_answers(drafted, assur_cli):
+    file, before = drafted
+    assert "the formulas close the joint graph: exact" in assur_cli("check", str(file)).out
+    after = assur_cli("direct", str(file), "--json", "--", "10", "5").json
+    assert after["complete"]
+    assert [(own["mode"], own["working_mode"]) for own in after["solutions"]] == [
+        (own["mode"], own["working_mode"]) for own in before["solutions"]
+    ]
+    for first, second in zip(before["solutions"], after["solutions"], strict=True):
+        assert second["pose"] == pytest.approx(first["pose"], abs=1e-6)
+
+
+def test_what_is_certified_of_a_draft_is_verified(drafted, assur_cli, tmp_path):
+    file, _ = drafted
+    certificate = tmp_path / "workspace.json"
+    assert assur_cli("certify", str(file), "-o", str(certificate)).code == 0
+    assert "exact" in assur_cli("verify", str(certificate), "--mechanism", str(file)).out
+
+
+def test_a_form_with_other_names_than_the_joint_graph_s_is_refused(drafted, assur_cli, tmp_path):
+    file, _ = drafted
+    form = tmp_path / "closed_form.py"
+    quoted = form.read_text().replace('"platform"', '"upright"').replace("('platform',)", "('upright',)")
+    form.write_text(quoted.replace("sign.platform", "sign.upright"))
+    answer = assur_cli("check", str(file))
+    assert answer.code == 3
+    assert "the joint graph names the modes by platform" in " ".join((answer.out + answer.err).split())
+
+
+def test_a_cosine_of_a_number_is_no_part_of_a_closed_form(assur_cli, tmp_path):
+    file = tmp_path / "my.toml"
+    chains = ("P[z] P(4S)[y]", "P[z] P(4S)[-0.866,-0.5,0]", "P[1,0,2] P(4S)[0.866,-0.5,0]")
+    assur_cli("new", str(file), *(word for chain in chains for word in ("--chain", chain)))
+    answer = assur_cli("derive", str(file), "-o", str(tmp_path / "closed_form.py"))
+    assert answer.code == 5
+    assert "angle among the parameters" in answer.out + answer.err

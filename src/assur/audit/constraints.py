@@ -11,6 +11,7 @@ from assur.kinematics import border
 from assur.kinematics.modes import sign_axes, sign_names
 from assur.kinematics.position import inverse
 from assur.kinematics.status import closed_form_of
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -40,9 +41,11 @@ def needs(record: MechanismRecord, pose: FloatArray, inputs: FloatArray) -> tupl
     if form.constraints is None:
         return ()
     names = sign_names(record, "inverse")
-    branch = form.inverse(Floats(), record.values, border.pose_components(record, pose[None, :]), sign_axes(names))
+    branch = form.inverse(
+        Floats(), kernel_dimensions(record), border.pose_components(record, pose[None, :]), sign_axes(names)
+    )
     components = border.input_components(record, inputs[None, :])
-    pairs = form.constraints(Floats(), record.values, branch.core, components)
+    pairs = form.constraints(Floats(), kernel_dimensions(record), branch.core, components)
     shape = (*(2 for _ in names), 1)
     lengths = {name: np.broadcast_to(pair[0], shape).ravel() for name, pair in pairs.items()}
     fixed = {name: float(np.max(pair[1])) for name, pair in pairs.items()}

@@ -15,8 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.certified.given import dimension_intervals
 from assur.kinematics.contract.admission import checked_form
 from assur.kinematics.modes import mode_signs, sign_names
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
 from assur.numerics.intervals.functions import cosine_sine
@@ -158,7 +160,8 @@ def formulas(
         numbers[name] = as_interval(value)
         return recorder.uniform(name)
 
-    p = SimpleNamespace(**{name: given(name, value) for name, value in vars(record.values).items()})
+    dimensions = dimension_intervals(record)
+    p = kernel_dimensions(record, lambda name: given(name, dimensions[name]))
     signs = mode_signs(record, "inverse", record.modes.default_working if mode is None else mode)
     named = zip(sign_names(record, "inverse"), signs, strict=True)
     sign = SimpleNamespace(**{name: given(f"sign {name}", float(value)) for name, value in named})

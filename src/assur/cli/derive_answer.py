@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from rich.console import RenderableType
 
@@ -18,6 +19,7 @@ from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
+from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import DerivationAnswer, DerivedChoice, DerivedProblem, DerivedReason, DerivedSet
 from assur.results.files import write_whole
 
@@ -30,10 +32,19 @@ def outcome(record: Mechanism, problem: str, output: str | None) -> Outcome:
     asked: tuple[Problem, ...] = ("direct", "inverse") if problem == "both" else (problem,)  # type: ignore[assignment]
     parts = tuple(_derived(record, name) for name in asked)
     fine = all(part.status == "derived" for part in parts)
-    if path is not None and fine:
-        write_whole(path, derive(record).closed_form())
-    data = DerivationAnswer(record.name, parts, str(path) if path is not None and fine else None)
+    not_written = _not_written(record, path) if path is not None and fine else ""
+    fine = fine and not not_written
+    data = DerivationAnswer(record.name, parts, str(path) if path is not None and fine else None, not_written or ABSENT)
     return Outcome(data, lambda: _shown(data), exit_code=exit_codes.FINE if fine else exit_codes.UNDECIDED)
+
+
+def _not_written(record: Mechanism, path: Path) -> str:
+    """Write the closed form; why it cannot be written, where it cannot."""
+    try:
+        write_whole(path, derive(record).closed_form())
+    except NotDerivedError as error:
+        return str(error)
+    return ""
 
 
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
@@ -92,6 +103,8 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield heading(f"{data.mechanism}, {part.problem}: not derived")
             yield part.why
         yield ""
+    if data.not_written is not ABSENT:
+        yield f"no closed form is written: {data.not_written}"
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"

@@ -39,6 +39,7 @@ def description(record: Mechanism) -> MechanismAnswer:
     """The mechanism, with angles in its angle unit."""
     from assur.kinematics.answers.at_border import angle_at_border
     from assur.kinematics.closure import closure_error
+    from assur.kinematics.named_signs import written_quantities
     from assur.model.pose import is_angle
     from assur.results.answers.catalogue import (
         MechanismAnswer,
@@ -83,10 +84,10 @@ def description(record: Mechanism) -> MechanismAnswer:
         ),
         inputs=tuple(ShownInput(item.name, item.coordinate.joint, item.coordinate.kind) for item in record.inputs),
         modes=ShownModes(
-            {name: formula.text for name, formula in record.modes.working.items()},
-            {name: formula.text for name, formula in record.modes.assembly.items()},
-            record.modes.default_working,
-            record.modes.default_assembly,
+            {name: formula.text for name, formula in written_quantities(record, "inverse").items()},
+            {name: formula.text for name, formula in written_quantities(record, "direct").items()},
+            record.modes.of_file.default_working,
+            record.modes.of_file.default_assembly,
         ),
         box={name: list(map(float, pair)) for name, pair in low_high.items()},
         home=ShownHome(
@@ -175,9 +176,9 @@ def _modes(modes: ShownModes) -> Iterable[RenderableType]:
 def _signs(record: Mechanism) -> Iterable[RenderableType]:
     """The signs that the joint graph gives to modes for which the file names no quantities, and what each + means."""
     nameless: list[tuple[Problem, str]] = []
-    if not record.modes.working:
+    if not record.modes.of_file.working:
         nameless.append(("inverse", "working"))
-    if not record.modes.assembly:
+    if not record.modes.of_file.assembly:
         nameless.append(("direct", "assembly"))
     for problem, kind in nameless:
         from assur.kinematics.naming import described_signs  # which names in a file do without

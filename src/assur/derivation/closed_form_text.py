@@ -12,8 +12,10 @@ import sympy
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.elimination import Definition, Root
 from assur.derivation.joint_formulas import BallRotation
-from assur.derivation.kernel_text import KernelPrinter
+from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
 from assur.kinematics.modes import Problem
+from assur.kinematics.named_signs import written_quantities
+from assur.kinematics.naming import sign_meanings
 
 CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""
 
@@ -96,7 +98,7 @@ class ClosedFormText:
         text = self.printer.doprint(own.formula)
         if own.symbol in roots:
             name, sense = self.formulas.signs[problem, own.symbol]
-            text = f"{'-' if sense < 0 else ''}sign.{name} * {text}"
+            text = f"{'-' if sense < 0 else ''}{sign_text(name)} * {text}"
         return f"    {own.symbol.name} = {text}"
 
     def _given(self, problem: Problem) -> list[str]:
@@ -128,7 +130,8 @@ class ClosedFormText:
         lines.append("    return SimpleNamespace(")
         lines += [f"        {name}={name}," for name in names]
         lines += [
-            f"        of_{name}={self.printer.doprint(value)}," for name, value in self.formulas.sign_values.items()
+            f"        {sign_attribute(name)}={self.printer.doprint(value)},"
+            for name, value in self.formulas.sign_values.items()
         ]
         lines.append("    )")
         return "\n".join(lines)
@@ -203,8 +206,9 @@ class ClosedFormText:
         lines += [f"    {name}={name}," for name in ("direct", "inverse", "joints", "factors", "jacobians")]
         lines.append("    signs={")
         scales = {name: self.formulas.scale(value) for name, value in self.formulas.sign_values.items()}
-        lines += [f'        "{name}": Sign("of_{name}", "{scale}"),' for name, scale in scales.items()]
+        lines += [f'        "{name}": Sign("{sign_attribute(name)}", "{scale}"),' for name, scale in scales.items()]
         lines.append("    },")
+        lines += [f"    {kind}={names!r}," for kind, names in self._names_of_graph().items()]
         for problem in ("direct", "inverse"):
             lines.append(f"    {problem}_margins=(")
             lines += [f"        {text}," for text in self._margin_list(problem)]
@@ -218,6 +222,17 @@ class ClosedFormText:
             lines.append(f"    constraint_singular={self.constraint_singular!r},")
         lines.append(")")
         return "\n".join(lines)
+
+    def _names_of_graph(self) -> dict[str, tuple[str, ...]]:
+        """Names of modes that are the joint graph's, where the file has none for a problem, in its order."""
+        record = self.formulas.inverse.symbols.record
+        kinds: dict[Problem, str] = {"inverse": "working", "direct": "assembly"}
+        names: dict[str, tuple[str, ...]] = {}
+        for problem, kind in kinds.items():
+            if not written_quantities(record, problem):
+                used = {name for (of, _), (name, _) in self.formulas.signs.items() if of == problem}
+                names[kind] = tuple(name for name in sign_meanings(record, problem) if name in used)
+        return {kind: own for kind, own in names.items() if own}
 
     def _margin_list(self, problem: Problem) -> Iterator[str]:
         solution = self.formulas.solution(problem)

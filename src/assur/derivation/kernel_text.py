@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable
+from keyword import iskeyword
 from typing import Any
 
+from sympy import expand_trig
 from sympy.printing.pycode import PythonCodePrinter
 
 from assur.derivation.elimination import Definition
+from assur.derivation.not_derived import NotDerivedError
 
 WIDTH = 116
 
@@ -18,14 +23,34 @@ class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no ty
     >>> from sympy import Symbol, sqrt
     >>> KernelPrinter({"l2"}).doprint(sqrt(3) * Symbol("l2") / Symbol("x"))
     'ns.sqrt(3)*p.l2/x'
+    >>> from sympy import cos
+    >>> KernelPrinter({"alpha"}).doprint(cos(Symbol("alpha")))  # an angle is cosine and sine
+    'p.alpha[0]'
     """
 
     def __init__(self, parameters: Iterable[str]) -> None:
         super().__init__()
         self._parameters = {*parameters}
 
+    def doprint(self, expr: Any, assign_to: Any = None) -> str:
+        """The text of a formula; an angle is cosine and sine, so that a sum of angles is written out."""
+        return str(super().doprint(expand_trig(expr), assign_to))
+
     def _print_Symbol(self, expr: Any) -> str:
         return f"p.{expr.name}" if expr.name in self._parameters else str(expr.name)
+
+    def _print_cos(self, expr: Any) -> str:
+        return self._of_angle(expr, 0)
+
+    def _print_sin(self, expr: Any) -> str:
+        return self._of_angle(expr, 1)
+
+    def _of_angle(self, expr: Any, place: int) -> str:
+        (angle,) = expr.args
+        if angle.is_Symbol:
+            return f"{self._print(angle)}[{place}]"
+        degrees = f"{float(angle) * 180 / math.pi:g} deg" if angle.is_number else str(angle)
+        raise NotDerivedError(f"a closed form has no cosine of {degrees}: make it an angle among the parameters")
 
     def _print_Pow(self, expr: Any, rational: bool = False) -> str:
         base, power = expr.base, expr.exp
@@ -44,3 +69,21 @@ class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no ty
 def assignments(definitions: Iterable[Definition], printer: KernelPrinter) -> list[str]:
     """Lines of a kernel, one for each definition."""
     return [f"    {own.symbol.name} = {printer.doprint(own.formula)}" for own in definitions]
+
+
+def sign_text(name: str) -> str:
+    """A mode's sign in a kernel, whose name may be no identifier.
+
+    >>> sign_text("leg1"), sign_text("A1-B3")
+    ('sign.leg1', 'getattr(sign, "A1-B3")')
+    """
+    return f"sign.{name}" if name.isidentifier() and not iskeyword(name) else f'getattr(sign, "{name}")'
+
+
+def sign_attribute(name: str) -> str:
+    """Under what the quantity is kept that a sign is the sign of.
+
+    >>> sign_attribute("leg1"), sign_attribute("A1-B3")
+    ('of_leg1', 'of_A1_B3')
+    """
+    return "of_" + re.sub(r"\W", "_", name)

@@ -143,29 +143,38 @@ def divided(row: Form) -> Form:
     return {key: sympy.cancel(part / shared) for key, part in zip(keys, whole, strict=True)}
 
 
-def sparse(forms: Sequence[Form], witness: ModularWitness) -> list[Form]:
+def sparse(forms: Sequence[Form], witness: ModularWitness, everywhere: bool = False) -> list[Form]:
     """Equations of the same span with few unknowns each: pairs are combined as long as that shortens one of them.
+
+    Args:
+        forms: the equations.
+        witness: tells what vanishes.
+        everywhere: whether the span is to be the same also where a coefficient vanishes: shares are formulas of
+            dimensions alone, that never vanish.
 
     >>> x, y, z = sympy.symbols("x y z")
     >>> sparse([{x: ONE, y: ONE}, {x: ONE, y: ONE, z: ONE}], ModularWitness())
     [{z: -1}, {x: 1, y: 1}]
     """
     left = [form for form in forms if form]
-    while (better := _shorter(left, witness)) is not None:
+    while (better := _shorter(left, witness, everywhere)) is not None:
         k, form = better
         left[k] = form
         left = [form for form in left if form]
     return left
 
 
-def _shorter(forms: Sequence[Form], witness: ModularWitness) -> tuple[int, Form] | None:
+def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -> tuple[int, Form] | None:
     for k, form in enumerate(forms):
         for other in forms:
             shared = [key for key in form if key in other and key != ONE]
             if other is form or not shared or len(other) > len(form) + 1:
                 continue
             for key in shared:
-                changed = combined(form, tidy(-form[key] / other[key]), other, witness)
+                share = tidy(-form[key] / other[key])
+                if everywhere and not never_zero(share):
+                    continue
+                changed = combined(form, share, other, witness)
                 if _size(changed) < _size(form):
                     return k, changed
     return None

@@ -160,6 +160,10 @@ class _Loops:
         turned = apply(own.constant, vector) if own.constant is not UNTURNED else vector
         if own.rod is not None:
             return self._along(link, own, turned)
+        return self._turned(own, turned)
+
+    def _turned(self, own: Orientation, turned: Vector) -> Vector:
+        """A vector that turns on a circle, if there is one."""
         if own.axis is None or own.circle is None:
             return turned
         cosine, sine = self.circles[own.circle].unknowns
@@ -168,12 +172,14 @@ class _Loops:
         return add(along, add(scaled(across, cosine), scaled(self._tidied(cross(own.axis, across)), sine)))
 
     def _along(self, link: str, own: Orientation, vector: Vector) -> Vector:
-        line = own.line or (0, 0, 0)
-        share = dot(line, vector)
-        if not all(map(self.symbols.witness.is_zero, subtract(vector, scaled(line, share)))):
+        line, hinge = own.line or (0, 0, 0), own.hinge or (0, 0, 0)
+        share, beside = dot(line, vector), dot(hinge, vector)
+        in_plane = add(scaled(line, share), scaled(hinge, beside))
+        if not all(map(self.symbols.witness.is_zero, subtract(vector, in_plane))):
             raise NotDerivedError(f"{link} is no straight rod")
         ex, ey, ez = self.rods[own.rod or 0].unknowns
-        return scaled((ex, ey, ez), sympy.simplify(share))
+        along = scaled((ex, ey, ez), sympy.simplify(share))
+        return along if self.symbols.witness.is_zero(beside) else add(along, scaled(self._turned(own, hinge), beside))
 
     def _tidied(self, vector: Vector) -> Vector:
         x, y, z = (0 if self.symbols.witness.is_zero(part) else sympy.expand(part) for part in vector)

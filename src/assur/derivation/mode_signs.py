@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_text import ClosedFormText
+from assur.derivation.kernel_text import sign_attribute
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import AnalyticSolution
 from assur.joint_graph.geometry import characteristic_length
@@ -22,6 +23,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.model.closed_form import ClosedForm
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.kernels.reading import names_of
 from assur.model.pose import LENGTHS
 from assur.numerics.number_types import Floats
@@ -73,14 +75,16 @@ def _branches(
     many = np.repeat(poses, len(choices), axis=0)
     rows = np.tile(choices, (len(poses), 1))
     roots = [name for name in names if name.startswith("inverse")]
-    ns, p = Floats(), record.values
+    ns, p = Floats(), kernel_dimensions(record)
     branch = form.inverse(
         ns, p, border.pose_components(record, many), SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
     )
     real = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
     joints = border.joint_values(record, form.joints(ns, p, branch.core))
     values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
-    signs = {name: np.sign(np.broadcast_to(getattr(branch.core, f"of_{name}"), len(many)))[real] for name in names}
+    signs = {
+        name: np.sign(np.broadcast_to(getattr(branch.core, sign_attribute(name)), len(many)))[real] for name in names
+    }
     return values[real], signs
 
 

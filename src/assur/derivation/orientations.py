@@ -18,7 +18,7 @@ from assur.derivation.hinges import Hinge, RigidPair, hinges, point_on, rods_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.symbols import GivenSymbols
 from assur.joints.steps import UNTURNED, about
-from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, subtract, transposed
+from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed
 
 
 @dataclass(frozen=True)
@@ -239,14 +239,15 @@ class _Reading:
         return hinged
 
     def _line(self, link: str, constant: Matrix, hinge: Vector) -> Vector:
-        """The direction of a straight rod across its hinge, where psi and phi are zero."""
+        """The direction of a rod across its hinge, where psi and phi are zero; along the hinge it may reach too."""
         joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
         start, *points = (point_on(self.symbols, joint, link) for joint in joints)
         side = next(vector for vector in (subtract(point, start) for point in points) if any(vector))
-        along = apply(constant, self.exact.unit(side))
-        if not self.witness.is_zero(dot(along, hinge)):
-            raise NotDerivedError(f"{link} is no straight rod across its hinge")
-        return self.exact.tidied(along)
+        along = apply(constant, side)
+        across = self.exact.tidied(subtract(along, scaled(hinge, dot(along, hinge))))
+        if not any(across):
+            raise NotDerivedError(f"{link} reaches along its hinge alone")
+        return self.exact.tidied(self.exact.unit(across))
 
     def _rods(self, links: Mapping[str, Orientation], first_number: int) -> dict[str, Orientation]:
         """Rods between two ball joints."""

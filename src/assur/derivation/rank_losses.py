@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +36,7 @@ def rank_losses(record: MechanismRecord, text: str) -> tuple[Group, ...]:
         text: its closed form, whose groups are not looked at.
     """
     form: ClosedForm = names_of(text, Path("closed_form.py"))["CLOSED_FORM"]
-    own = replace(record, closed_form=form, closed_form_text=text)
+    own = record.with_closed_form(form, text)
     lost, kept = set[frozenset[str]](), set[frozenset[str]]()
     for places in _singular_places(own):
         vanishing = {name: np.abs(value) <= SAME for name, value in relative_factors(own, places.factors).items()}

@@ -73,7 +73,7 @@ class Sizes:
             return float(self._size(value.base) ** float(value.exp))
         if value.is_Symbol:
             return self._of_symbol(value)
-        return abs(float(value))
+        return abs(float(value)) if value.is_number else 1.0  # cosine or sine of an angle among the dimensions
 
     def _of_symbol(self, symbol: sympy.Symbol) -> float:
         record = self.solution.symbols.record

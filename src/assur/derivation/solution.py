@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product as choices_of
 
 import sympy
@@ -70,6 +71,7 @@ class AnalyticSolution:
         return all(map(witness.is_zero, (*map(value_of, self.loops.forms), *quadrics)))
 
 
+@lru_cache(maxsize=8)
 def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolution:
     """The direct or the inverse problem solved by formulas.
 

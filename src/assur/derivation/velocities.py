@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy
 
@@ -36,6 +37,7 @@ class VelocityEquations:
     serial: tuple[tuple[sympy.Expr, int], ...]
 
 
+@lru_cache(maxsize=8)
 def velocity_equations(solution: AnalyticSolution) -> VelocityEquations:
     """The velocity equations of an inverse problem that was solved. Errors: NotDerivedError."""
     return _Velocities(solution).equations()
@@ -60,7 +62,7 @@ class _Velocities:
                 rows.append(replaced(across, values, self.witness))
         _, rows = solved(rows, self.passive, self.witness)
         rows = [divided(self._alike(row)) for row in rows if row]
-        rows = [divided(row) for row in sparse(rows, self.witness)]
+        rows = [divided(row) for row in sparse(rows, self.witness, everywhere=True)]
         size = len(self.pose)
         if len(rows) != size or len(self.inputs) != size:
             raise NotDerivedError(f"{len(rows)} velocity equations for {size} rates of the pose")
@@ -155,6 +157,7 @@ def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
         alone = _alone(left)
         own = left[alone] * (-1) ** sum(alone) if alone else left.det(method="berkowitz") if left.rows else 1
         for base, exponent in sympy.factor(sympy.cancel(own)).as_powers_dict().items():
+            base = _on_circles(base)
             factor, power = (sympy.sqrt(base), 2 * exponent) if exponent.q == 2 else (base, exponent)
             if factor.is_number:
                 number *= factor**power
@@ -163,6 +166,14 @@ def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
         if alone is None:
             return ((number, 1), *powers.items())
         left = left.minor_submatrix(*alone)
+
+
+def _on_circles(factor: sympy.Expr) -> sympy.Expr:
+    """1 where a factor is the sum of the squares of an angle's cosine and sine; else the factor."""
+    own = factor
+    for sine in factor.atoms(sympy.sin):
+        own = sympy.expand(own.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
+    return own if own.is_number else factor
 
 
 def _alone(matrix: sympy.Matrix) -> tuple[int, int] | None:

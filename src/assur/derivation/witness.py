@@ -13,10 +13,13 @@ from typing import Any
 import numpy as np
 import sympy
 
-from assur.numerics.prime_field import LARGE, PrimeField, below
+from assur.numerics.prime_field import LARGE, ORDER, PrimeField, below, multiple
 
 Element = tuple[int, int]
 """An element of F_p(i): real and imaginary part."""
+FINEST = 360 * 10**12
+"""Shares of a turn that angles are counted in that are no root of unity of the field, as those of drawn directions: one
+unit for all, so that sums of decimals stay what they are."""
 TRIES = 200
 """Draws after which a root is taken not to exist; of k roots of roots one draw in 2^k has them all."""
 
@@ -175,21 +178,21 @@ class ModularWitness:
         return cosine, sine
 
     def _angle(self, angle: sympy.Expr, factor: sympy.Rational) -> tuple[Element, Element]:
+        """Of a multiple of an angle; of a number of turns that are no root of unity of the field, as of an angle."""
+        count, share = int(factor.p), angle * sympy.Rational(1, factor.q)  # the angle whose whole multiple is meant
         if angle == sympy.pi:
-            real, imaginary = self.field.cosine_and_sine(Fraction(int(factor.p), 2 * int(factor.q)))
-            return (real, 0), (imaginary, 0)
-        share = angle * sympy.Rational(1, factor.q)  # the angle whose whole multiple is meant
+            turns = Fraction(int(factor.p), 2 * int(factor.q))
+            if ORDER % turns.denominator == 0:
+                real, imaginary = self.field.cosine_and_sine(turns)
+                return (real, 0), (imaginary, 0)
+            unit = Fraction(1, FINEST if FINEST % turns.denominator == 0 else turns.denominator)
+            count, share = int(turns / unit), 2 * sympy.pi * sympy.Rational(unit.numerator, unit.denominator)
         symbols = sympy.Function("circle_cos")(share), sympy.Function("circle_sin")(share)
         if symbols[0] not in self._values:
             self._draw_circle(*symbols)
-        own = self._values[symbols[0]], self._values[symbols[1]]
-        cosine, sine = (1, 0), (0, 0)
-        for _ in range(abs(int(factor.p))):
-            cosine, sine = (
-                self._minus(self._times(cosine, own[0]), self._times(sine, own[1])),
-                self._plus(self._times(sine, own[0]), self._times(cosine, own[1])),
-            )
-        return cosine, sine if factor.p > 0 else self._minus((0, 0), sine)
+        own = self._values[symbols[0]][0], self._values[symbols[1]][0]
+        cosine, sine = multiple(own, abs(count), self.field.p)
+        return (cosine, 0), (sine if count > 0 else -sine % self.field.p, 0)
 
     def _times(self, a: Element, b: Element) -> Element:
         p = self.field.p

@@ -8,13 +8,20 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantities
 from assur.kinematics.modes import Problem, mode_text
+from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 
 
+def written_quantities(record: MechanismRecord, problem: Problem) -> dict[str, Formula]:
+    """The quantities by whose signs the file names the modes of a problem; none where it names none."""
+    own = record.modes.assembly if problem == "direct" else record.modes.working
+    return {name: formula for name, formula in own.items() if formula is not None}
+
+
 def named_signs(record: MechanismRecord, problem: Problem, joints: FloatArray, zero: float = 0.0) -> NDArray[np.int8]:
-    """Signs (..., s) of the quantities that name the modes of a problem, at joint values (..., n).
+    """Signs (..., s) of the quantities that name the modes of a problem in the file, at joint values (..., n).
 
     0 where one vanishes: within `zero`, in rad or as a share of the characteristic length.
 
@@ -24,7 +31,7 @@ def named_signs(record: MechanismRecord, problem: Problem, joints: FloatArray, z
     >>> named_signs(record, "inverse", home_values(record)).tolist()
     [-1, 1]
     """
-    formulas = record.modes.assembly if problem == "direct" else record.modes.working
+    formulas = written_quantities(record, problem)
     signs = np.zeros((*joints.shape[:-1], len(formulas)), dtype=np.int8)
     bound = zero * max(1.0, characteristic_length(record))
     for k, values in enumerate(quantities(record, formulas.values(), joints)):

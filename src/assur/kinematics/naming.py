@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.modes import Problem, mode_text, sign_names
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.named_signs import named_signs, written_quantities
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -57,8 +57,8 @@ def described_signs(record: MechanismRecord, problem: Problem) -> tuple[Describe
     >>> described_signs(load_record("fivebar"), "inverse")[0].places
     ('B1',)
     """
-    if sign_names(record, problem):
-        written = record.modes.assembly if problem == "direct" else record.modes.working
+    written = written_quantities(record, problem)
+    if written:
         return tuple(
             DescribedSign(name, name, f"{formula.text} > 0", _places(record, formula.names), True)
             for name, formula in written.items()
@@ -108,17 +108,20 @@ def signs_at(record: MechanismRecord, problem: Problem, joints: FloatArray, zero
 
     0 where a quantity of the file is within `zero` (rad, characteristic lengths), or a block is singular.
     """
-    if sign_names(record, problem):
+    if written_quantities(record, problem):
         return named_signs(record, problem, joints, zero)
-    from assur.kinematics.closing_blocks.columns import ScrewColumns  # which names in a file do without
-    from assur.kinematics.closing_blocks.kept import kept_signs
+    from assur.kinematics.closing_blocks.kept import kept_signs_at  # which names in a file do without
 
-    own = kept_signs(record, problem)
-    platform = any(sign.needs_platform(record) for sign in own)
-    screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])), platform)
-    signs = [sign.signs(screws) for sign in own] if len(screws.values) else []
-    columns = np.array(signs, dtype=np.int8).reshape(len(sign_meanings(record, problem)), len(screws.values)).T
-    return columns.reshape(*joints.shape[:-1], columns.shape[-1])
+    return kept_signs_at(record, problem, joints)
+
+
+def declared_signs(
+    record: MechanismRecord, problem: Problem, joints: FloatArray, zero: float = 0.0
+) -> NDArray[np.int8]:
+    """The same where the file or its closed form names the modes; (..., 0) where neither does."""
+    if sign_names(record, problem):
+        return signs_at(record, problem, joints, zero)
+    return named_signs(record, problem, joints, zero)
 
 
 def mode_names(record: MechanismRecord, joints: FloatArray) -> tuple[str, str]:

@@ -17,6 +17,7 @@ from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.modes import Method, Problem, all_modes, mode_signs, sign_axes, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -150,7 +151,7 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     with np.errstate(
         divide="ignore", invalid="ignore", over="ignore"
     ):  # where a margin degenerates; its status says so
-        branch = kernel(Floats(), record.values, components(record, flat), sign)
+        branch = kernel(Floats(), kernel_dimensions(record), components(record, flat), sign)
     return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
 
 

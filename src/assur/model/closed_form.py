@@ -203,6 +203,8 @@ class ClosedForm:
         self_motion_singular: groups of factors; where all of one group vanish, the platform moves with
             every input locked.
         sources: name of a coordinate, an input or a factor -> the equation that gives it.
+        working, assembly: names of modes where the file's [modes] has none for a problem: those by which the joint
+            graph names them, in its order.
         as_printed: (ns, p, core) -> (Jp, Jq) as the source prints them, where that differs.
     """
 
@@ -224,4 +226,6 @@ class ClosedForm:
     self_motion: SelfMotion | None = None
     as_printed: Callable[..., tuple[Sequence[Sequence[Number]], Sequence[Sequence[Number]]]] | None = None
     reduced_because: str = ""
+    working: tuple[str, ...] = ()
+    assembly: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)

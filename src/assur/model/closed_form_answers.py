@@ -16,6 +16,7 @@ from typing import Any
 from assur.errors import MechanismFileError, Problem
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Margin, PolynomialSystem
 from assur.model.file.faults import listed
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.kernels.values import TABLES, is_number, kind_of
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import is_angle
@@ -43,7 +44,7 @@ class _Dry:
 
     @property
     def p(self) -> SimpleNamespace:
-        return SimpleNamespace(**{name: self.number() for name in self.record.parameters})
+        return kernel_dimensions(self.record, lambda _: self.number())
 
     @property
     def pose(self) -> tuple[Any, ...]:
@@ -65,6 +66,7 @@ def answer_faults(record: MechanismRecord, form: ClosedForm, path: Path) -> tupl
         form: its closed form.
         path: the closed form's file.
     """
+    record = record.with_closed_form(form, "")
     dry = _Dry(record, Recorder())
     ns, p = dry.ns, dry.p
     faults: list[Problem] = []

@@ -126,7 +126,8 @@ def disagreements(
 
 
 def _signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Problem]:
-    own = {*record.modes.working, *record.modes.assembly}
+    modes = record.modes.completed(form.working, form.assembly)
+    own = {*modes.working, *modes.assembly}
     if own != set(form.signs):
         found = f"signs {listed(form.signs)}"
         hint = (
@@ -160,9 +161,10 @@ def _names(record: MechanismRecord, form: ClosedForm, path: Path, *, signs: bool
 
 def _margin_signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Problem]:
     """Margins of the direct problem name assembly signs, those of the inverse one working signs."""
+    named = record.modes.completed(form.working, form.assembly)
     for problem, margins, modes, own in (
-        ("direct", form.direct_margins, "assembly", record.modes.assembly),
-        ("inverse", form.inverse_margins, "working", record.modes.working),
+        ("direct", form.direct_margins, "assembly", named.assembly),
+        ("inverse", form.inverse_margins, "working", named.working),
     ):
         for margin in margins:
             for sign in margin.signs:

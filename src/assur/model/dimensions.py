@@ -11,8 +11,6 @@ from assur.model.file.faults import Faults
 from assur.model.file.parameters import checked_overrides
 from assur.model.mechanism import MechanismRecord
 
-_NOT_OF_FILE = ("closed_form", "closed_form_text", "closed_form_not_run", "thickness")
-"""What a record has from elsewhere than the mechanism's file."""
 Record = TypeVar("Record", bound=MechanismRecord)
 
 
@@ -41,8 +39,8 @@ def with_parameters(record: Record, /, **overrides: Any) -> Record:
         place = f"{problem.path}: {problem.given}; {problem.allowed}"
         raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
     parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
-    kept = {name: getattr(record, name) for name in _NOT_OF_FILE}
-    return dataclasses.replace(record, **{**parts, **kept})
+    same = dataclasses.replace(record, **{**parts, "thickness": record.thickness})
+    return same.with_closed_form(record.closed_form, record.closed_form_text, not_run=record.closed_form_not_run)
 
 
 def of_file(record: MechanismRecord) -> MechanismRecord:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,12 +162,34 @@ class Point:
 
 @dataclass(frozen=True)
 class Modes:
-    """Names of branches: each a row of signs of named quantities of the joint graph, in the file's order."""
+    """Names of branches: each a row of signs of named quantities of the joint graph, in the file's order.
 
-    working: Mapping[str, Formula] = field(default_factory=dict)
-    assembly: Mapping[str, Formula] = field(default_factory=dict)
+    Where the file names none, and its closed form those of the joint graph's closing blocks, a name has no formula.
+    """
+
+    working: Mapping[str, Formula | None] = field(default_factory=dict)
+    assembly: Mapping[str, Formula | None] = field(default_factory=dict)
     default_working: str = ""
     default_assembly: str = ""
+
+    def completed(self, working: Sequence[str], assembly: Sequence[str]) -> Modes:
+        """The same with names of closing blocks, all of which are + at home, for a problem without names."""
+        own = self
+        if working and not own.working:
+            own = replace(own, working=dict.fromkeys(working), default_working="+" * len(working))
+        if assembly and not own.assembly:
+            own = replace(own, assembly=dict.fromkeys(assembly), default_assembly="+" * len(assembly))
+        return own
+
+    @property
+    def of_file(self) -> Modes:
+        """The same without names of closing blocks."""
+        own = self
+        if None in own.working.values():
+            own = replace(own, working={}, default_working="")
+        if None in own.assembly.values():
+            own = replace(own, assembly={}, default_assembly="")
+        return own
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -221,6 +243,16 @@ class MechanismRecord:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.title}>"
+
+    def with_closed_form(self, form: ClosedForm | None, text: str, *, not_run: bool = False) -> Self:
+        """The same with what stands in the file of the closed form, which may name modes where the file does not."""
+        modes = self.modes.completed(form.working, form.assembly) if form else self.modes
+        return replace(self, closed_form=form, closed_form_text=text, closed_form_not_run=not_run, modes=modes)
+
+    @property
+    def without_closed_form(self) -> MechanismRecord:
+        """The same, solved on its joint graph alone, with the file's names of modes."""
+        return replace(self, closed_form=None, closed_form_text="", modes=self.modes.of_file)
 
     @property
     def values(self) -> SimpleNamespace:

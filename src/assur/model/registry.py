@@ -5,7 +5,6 @@ A folder has a mechanism (`mechanism.toml`, with dimensions) or a topology alone
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -93,7 +92,7 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     text = file_text(beside) if os.path.lexists(beside) else None  # what is there and no file is told
     form = None if text is None else _closed_form(record, beside, text)
     not_run = text is not None and form is None
-    record = dataclasses.replace(record, closed_form=form, closed_form_text=text or "", closed_form_not_run=not_run)
+    record = record.with_closed_form(form, text or "", not_run=not_run)
     if not overrides:
         return record
     from assur.model.dimensions import with_parameters  # which reads the file again, whatever was kept

@@ -81,9 +81,9 @@ class PrimeField:
             a, b = below(random, 1, p), below(random, 1, p)
             size = pow(a * a + b * b, -1, p)
             on_circle = (a * a - b * b) * size % p, 2 * a * b * size % p  # z / conjugate of z
-            turn = _power(on_circle, (p + 1) // ORDER, p)
-            if all(_power(turn, ORDER // prime, p) != (1, 0) for prime in (2, 3, 5, 7)):
-                quarter = _power(turn, ORDER // 4, p)[1]  # 1 or -1: a quarter of a turn is to have the sine 1
+            turn = multiple(on_circle, (p + 1) // ORDER, p)
+            if all(multiple(turn, ORDER // prime, p) != (1, 0) for prime in (2, 3, 5, 7)):
+                quarter = multiple(turn, ORDER // 4, p)[1]  # 1 or -1: a quarter of a turn is to have the sine 1
                 return PrimeField(p, (turn[0], turn[1] * quarter % p))
 
     def cosine_and_sine(self, turns: Fraction) -> tuple[int, int]:
@@ -91,7 +91,7 @@ class PrimeField:
         share = turns * ORDER
         if share.denominator != 1:
             raise NoResidueError(f"an angle of {turns} turns")
-        return _power(self.turn, share.numerator % ORDER, self.p)
+        return multiple(self.turn, share.numerator % ORDER, self.p)
 
     def missed(self, bits: float) -> float:
         """How likely a large prime that is drawn divides a number of the field that is not zero, modulo a prime of it.
@@ -159,12 +159,17 @@ def _product(a: tuple[int, int], b: tuple[int, int], p: int) -> tuple[int, int]:
     return (a[0] * b[0] - a[1] * b[1]) % p, (a[0] * b[1] + a[1] * b[0]) % p
 
 
-def _power(base: tuple[int, int], exponent: int, p: int) -> tuple[int, int]:
+def multiple(angle: tuple[int, int], count: int, p: int) -> tuple[int, int]:
+    """Cosine and sine, modulo p, of a multiple of an angle that is given by its own.
+
+    >>> multiple((3 * pow(5, -1, 101), 4 * pow(5, -1, 101)), 0, 101)
+    (1, 0)
+    """
     result = (1, 0)
-    for digit in bin(exponent)[2:]:
+    for digit in bin(count)[2:]:
         result = _product(result, result, p)
         if digit == "1":
-            result = _product(result, base, p)
+            result = _product(result, angle, p)
     return result
 
 

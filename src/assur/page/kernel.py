@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from assur.kinematics.closed_form.recorded import AnswerRow, Recording, recording
 from assur.kinematics.modes import sign_names
+from assur.model.kernel_dimensions import dimension_numbers
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.recording.javascript import javascript
@@ -38,7 +39,7 @@ def kernel(record: MechanismRecord) -> str | None:
 
 def parameters(record: MechanismRecord) -> dict[str, float]:
     """The numbers that the kernel takes: dimensions by name, angles in rad."""
-    return {name: float(value) for name, value in vars(record.values).items()}
+    return {name: float(value) for name, value in dimension_numbers(record).items()}
 
 
 def _components(record: MechanismRecord) -> list[str]:

@@ -36,7 +36,7 @@ from assur.verifier.graph import (
     transposed,
 )
 from assur.verifier.mechanism import COORDINATES, mechanism
-from assur.verifier.places import DrawnPlace, FormulaTape, RatedNumber, RootPlan, Sizing
+from assur.verifier.places import CIRCLE, DrawnPlace, FormulaTape, RatedNumber, RootPlan, Sizing
 from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
 from assur.verifier.sizes import Size
 
@@ -105,7 +105,10 @@ class _Check:
         self._numbers(statement)
 
     def _numbers(self, statement: Mapping[str, Any]) -> None:
-        """The numbers with names are those of the file and of the statement; both ends of each are the same."""
+        """The numbers with names are those of the file and of the statement; both ends of each are the same.
+
+        Of the cosine and the sine of an angle among the dimensions they are bounds.
+        """
         own = self.mechanism.dimensions(FloatNumbers())
         floats = {n: FloatNumbers().radians(v) if isinstance(v, AngleSum) else float(v) for n, v in own.items()}
         floats |= {name: float.fromhex(value) for name, value in statement["held"].items()}
@@ -113,6 +116,12 @@ class _Check:
             name, *arguments = self.formulas.operations[k]
             if name == "number":
                 low, high = (float.fromhex(text) for text in arguments[:2])
+                part, _, angle = arguments[2].partition(" ")
+                if part in CIRCLE and angle in floats:
+                    turned = {"cos": math.cos, "sin": math.sin}[part](floats[angle])
+                    if not low <= turned <= high <= low + NEAR:
+                        raise RefusedError(f"{arguments[2]} is {low} to {high}, and {turned} in the mechanism file")
+                    continue
                 expected = floats.get(arguments[2], low)
                 if low != high or abs(low - expected) > NEAR * abs(expected):
                     raise RefusedError(f"{arguments[2] or 'a number'} is {low}, and {expected} in the mechanism file")

@@ -17,6 +17,8 @@ from assur.verifier.graph import plus, times
 from assur.verifier.mechanism import FileMechanism
 from assur.verifier.sizes import Size
 
+CIRCLE = ("cos", "sin")
+"""Before the name of an angle among the dimensions, whose cosine or sine a number is."""
 GUARD = Fraction(1, 10**25)
 """A number that is added and smaller only keeps a divisor from being zero: it is left out, and that is told."""
 MOST = 2
@@ -138,10 +140,6 @@ class DrawnPlace:
         positive = (self.names[name] for name in sorted(mechanism.positive))
         self.positive = [plain(value, self) for value in positive if not isinstance(value, AngleSum)]
 
-    def plain(self, number: Any) -> Any:
-        """A dimension as a number; an angle as another that is drawn."""
-        return self.field.uniform() if isinstance(number, AngleSum) else number
-
     def coordinate(self, name: str, angle: bool) -> Any:
         """A coordinate of the pose, with a rate."""
         self.rates[name] = self.field.uniform()
@@ -227,10 +225,6 @@ class Sizing:
         self.given: dict[str, Any] = {}
         self.rates: dict[str, Size] = {}
         self.names = _drawn(mechanism, lambda: Size(1)) if general else mechanism.dimensions(self)
-
-    def plain(self, number: Any) -> Any:
-        """A dimension as a number."""
-        return Size(1) if isinstance(number, AngleSum) else number
 
     def coordinate(self, name: str, angle: bool) -> Any:
         """A coordinate of the pose, with a rate."""
@@ -326,7 +320,10 @@ def _given(kind: str, label: str, ns: DrawnPlace | Sizing, mechanism: FileMechan
     if kind == "coordinate" or label in held:
         return ns.coordinate(label, label in ("phi", "theta", "psi"))
     if label in mechanism.parameters:
-        return ns.plain(ns.names[label])
+        return ns.names[label]
+    part, _, angle = label.partition(" ")
+    if part in CIRCLE and angle in mechanism.parameters:
+        return ns.circle(ns.names[angle])[CIRCLE.index(part)]
     raise NoExactError(f"{label[:40]!r} is no dimension or coordinate")
 
 

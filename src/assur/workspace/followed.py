@@ -27,8 +27,7 @@ from assur.kinematics.following.followed_grid import Continuation, Followed
 from assur.kinematics.following.following import follow
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names, without_letter
-from assur.kinematics.named_signs import named_signs
-from assur.kinematics.naming import mode_names
+from assur.kinematics.naming import declared_signs, mode_names
 from assur.kinematics.parasitic import all_coordinates
 from assur.kinematics.position import inverse
 from assur.kinematics.turns import periodic
@@ -267,7 +266,7 @@ def _start(
                 path = follow(record, home_values(record), poses=slice_.poses(point[None])[0], use_limits=False)
             except UsageError:  # a slice whose angles are right at the end of what they can be
                 continue
-            if path.stopped is None and np.array_equal(named_signs(record, "inverse", path.joints[-1]), signs):
+            if path.stopped is None and np.array_equal(declared_signs(record, "inverse", path.joints[-1]), signs):
                 return (point, path.joints[-1]), "followed from home"
     if not mode:  # a mode without a name is home's: what a search finds may be another
         return None, "home's mode was not followed into the box: no path from home led there"

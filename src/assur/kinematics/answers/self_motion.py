@@ -16,6 +16,7 @@ from assur.kinematics.answers.solution import Failure
 from assur.kinematics.modes import mode_text
 from assur.kinematics.status import closed_form_of, scale
 from assur.model.closed_form import Branch
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -46,7 +47,7 @@ class SelfMotionCurve:
     def joints(self, count: int = 65) -> FloatArray:
         """Joint values (count, n) along the arc, ends included."""
         form = closed_form_of(self.record)
-        found = form.joints(Floats(), self.record.values, self._branch(count).core)
+        found = form.joints(Floats(), kernel_dimensions(self.record), self._branch(count).core)
         values = border.joint_values(self.record, found)
         return np.stack([np.broadcast_to(value, (count,)) for value in values], axis=-1)
 
@@ -78,7 +79,7 @@ def _kernel(
     sign = SimpleNamespace(**dict(zip(motion.signs, signs, strict=True)))
     components = border.input_components(record, np.broadcast_to(inputs, (len(angle), inputs.shape[-1])))
     with np.errstate(divide="ignore", invalid="ignore"):  # where a margin degenerates; it says so
-        return motion.kernel(Floats(), record.values, components, (np.cos(angle), np.sin(angle)), sign)
+        return motion.kernel(Floats(), kernel_dimensions(record), components, (np.cos(angle), np.sin(angle)), sign)
 
 
 def has_self_motion(record: MechanismRecord, inputs: FloatArray) -> bool:

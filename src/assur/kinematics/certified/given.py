@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.turns import periodic_inputs
+from assur.model.kernel_dimensions import angle_components, is_angular, kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics.dual import Dual
@@ -26,7 +27,19 @@ FloatArray = NDArray[np.float64]
 
 def parameters(record: MechanismRecord) -> SimpleNamespace:
     """The record's parameters as exact intervals, each its own object, so that products of them are enclosed."""
-    return SimpleNamespace(**{name: Interval.of(value) for name, value in vars(record.values).items()})
+    return kernel_dimensions(record, dimension_intervals(record).__getitem__)
+
+
+def dimension_intervals(record: MechanismRecord) -> dict[str, Interval]:
+    """Bounds of the numbers that kernels take, by name: a length is exact, an angle as one that is given."""
+    intervals: dict[str, Interval] = {}
+    for name, value in vars(record.values).items():
+        if is_angular(record, name):
+            angle = from_degrees(value) if record.parameters[name].unit == "deg" else Interval.of(value)
+            intervals |= zip(angle_components(name), cosine_sine(angle), strict=True)
+        else:
+            intervals[name] = Interval.of(value)
+    return intervals
 
 
 def inputs_meant(record: MechanismRecord, inputs: FloatArray) -> Interval:

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.certified.given import joint_inputs
+from assur.kinematics.certified.given import dimension_intervals, joint_inputs
 from assur.kinematics.certified.legs import Legs, conditions_of
 from assur.kinematics.modes import sign_names
 from assur.kinematics.turns import periodic_inputs
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.branch_and_prune import Existing
@@ -73,7 +74,7 @@ class RecordedLegs:
     @cached_property
     def _constants(self) -> dict[bool, tuple[Interval, ...]]:
         """What the programs take for all boxes; clamped or not."""
-        given = [as_interval(value) for value in vars(self.legs.record.values).values()]
+        given = [*dimension_intervals(self.legs.record).values()]
         for value in joint_inputs(self.legs.record, self.legs.inputs):
             given += map(as_interval, value) if isinstance(value, tuple) else [as_interval(value)]
         return {clamped: self._programs.folded.numbers(given, clamped=clamped) for clamped in (False, True)}
@@ -109,7 +110,7 @@ def leg_programs(record: MechanismRecord) -> LegPrograms:
     recorder, names = Recorder(), record.platform.pose
     pose = tuple(_recorded(recorder.varying, name, is_angle(name)) for name in names)
     sign = SimpleNamespace(**{name: recorder.varying(f"sign {name}") for name in sign_names(record, "inverse")})
-    p = SimpleNamespace(**{name: recorder.uniform(name) for name in vars(record.values)})
+    p = kernel_dimensions(record, recorder.uniform)
     given = tuple(_recorded(recorder.uniform, f"input {k}", same) for k, same in enumerate(periodic_inputs(record)))
     zero, positive = conditions_of(record, recorder, p, pose, sign, given)
     outputs = {f"zero {k}": value for k, value in enumerate(zero)}

@@ -14,6 +14,7 @@ from assur.kinematics.closed_form.filling import Engine, Filler, chosen, run
 from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.modes import Problem, sign_axes, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 from assur.numerics.recording.loops import empty_rows
@@ -99,7 +100,7 @@ def all_branches(
 
     An axis is 1 long where the sign makes no difference.
     """
-    form, p, ns = closed_form_of(record), record.values, Floats()
+    form, p, ns = closed_form_of(record), kernel_dimensions(record), Floats()
     direct = None if problem == "inverse" else branch_kernel(record)
     sign = sign_axes(sign_names(record, problem))
     margins = form.inverse_margins if problem == "inverse" else form.direct_margins

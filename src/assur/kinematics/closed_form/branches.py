@@ -19,6 +19,7 @@ from assur.kinematics.closed_form.mode_reading import ModeReading
 from assur.kinematics.modes import Problem, mode_texts, sign_names
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, scale
 from assur.model.closed_form import Branch, Margin
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -207,7 +208,7 @@ class Branches(SolutionSet):
     def quantities(self, name: str) -> FloatArray:
         """A quantity (..., K) that the source names, e.g. "gamma" (rad), "t", "J1", "M3"."""
         form = closed_form_of(self.record)
-        found = form.quantities(Floats(), self.record.values, self.branch.core) if form.quantities else {}
+        found = form.quantities(Floats(), kernel_dimensions(self.record), self.branch.core) if form.quantities else {}
         if name not in found:
             raise UnknownNameError(f"quantity of {self.record.name}", name, found)
         return self._where_real(self._expand(border.scalar(found[name])))

@@ -15,6 +15,7 @@ from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.modes import mode_kernel_signs
 from assur.kinematics.status import closed_form_of, relative_factors
 from assur.model.closed_form import Branch
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -70,7 +71,7 @@ class ModeReading:
     def _of_core(self, kernel: str) -> Any:
         form = closed_form_of(self.record)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            return getattr(form, kernel)(self.ns, self.record.values, self.branch.core)
+            return getattr(form, kernel)(self.ns, kernel_dimensions(self.record), self.branch.core)
 
 
 def mode_reading(record: MechanismRecord, mode: str | None, components: tuple[Any, ...], ns: Any = None) -> ModeReading:
@@ -90,7 +91,7 @@ def mode_reading(record: MechanismRecord, mode: str | None, components: tuple[An
     signs = mode_kernel_signs(record, "inverse", mode)
     ns = ns or Floats()
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where a margin degenerates; it says so
-        return ModeReading(record, ns, closed_form_of(record).inverse(ns, record.values, components, signs))
+        return ModeReading(record, ns, closed_form_of(record).inverse(ns, kernel_dimensions(record), components, signs))
 
 
 def mode_reading_at(record: MechanismRecord, mode: str | None, poses: ArrayLike) -> ModeReading:

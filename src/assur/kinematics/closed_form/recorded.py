@@ -23,6 +23,7 @@ from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.kinematics.turns import periodic_inputs
 from assur.model.closed_form import Branch, Margin
+from assur.model.kernel_dimensions import dimension_numbers, kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.recording.loops import CompiledLoop, compiled
@@ -81,7 +82,7 @@ class Recording:
     def uniform(self, signs: Sequence[float] = ()) -> FloatArray:
         """The uniform numbers: the record's dimensions, its tolerances, and the signs of a mode."""
         record, form = self.record, closed_form_of(self.record)
-        known = {f"p.{name}": value for name, value in vars(record.values).items()}
+        known = {f"p.{name}": value for name, value in dimension_numbers(record).items()}
         known |= {f"sign.{name}": sign for name, sign in zip(sign_names(record, self.problem), signs, strict=False)}
         known |= {f"tolerance.{item.name}": _bound(record, item) for item in _margins(form, self.problem)}
         return np.array([known[name] for name in self.tape.uniform], dtype=float)
@@ -130,7 +131,7 @@ class _Writer:
         self.record, self.problem, self.form = record, problem, closed_form_of(record)
         self.ns = Recorder()
         self.given = self._components()
-        self.p = SimpleNamespace(**{name: self.ns.uniform(f"p.{name}") for name in vars(record.values)})
+        self.p = kernel_dimensions(record, lambda name: self.ns.uniform(f"p.{name}"))
         self.bounds = {item.name: self.ns.uniform(f"tolerance.{item.name}") for item in _margins(self.form, problem)}
         self.kernel = self.form.inverse if problem == "inverse" else branch_kernel(record)
         self.outputs: dict[str, Any] = {}

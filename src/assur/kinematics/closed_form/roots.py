@@ -17,6 +17,7 @@ from assur.kinematics.modes import is_of_mode, lettered, mode_texts, sign_axes, 
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import polynomials
 from assur.numerics.number_types import Floats
@@ -111,7 +112,7 @@ def _signs(record: MechanismRecord) -> dict[str, bool]:
         return {}
     signs, inputs = form.direct.signs, border.input_components(record, np.ones((1, len(record.inputs))))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        entries = form.direct.coefficients(Floats(), record.values, inputs, sign_axes(signs))
+        entries = form.direct.coefficients(Floats(), kernel_dimensions(record), inputs, sign_axes(signs))
     sizes = np.broadcast_shapes(*map(np.shape, entries))  # one length 2 for each sign that an entry depends on
     return dict(zip(signs, (size == 2 for size in (*(1,) * len(signs), *sizes)[-len(signs) - 1 : -1]), strict=True))
 
@@ -140,7 +141,7 @@ def _every_root(record: MechanismRecord, eliminant: Eliminant, given: FloatArray
         coefficients, rounding = coefficients_of(record, eliminant, given)
         values, gap, count = (np.moveaxis(item, -1, -2) for item in _real(coefficients, rounding, eliminant.kind))
         root = (np.cos(values), np.sin(values)) if eliminant.kind == "angle" else values
-        branch = eliminant.back(Floats(), record.values, inputs, root, *extra)
+        branch = eliminant.back(Floats(), kernel_dimensions(record), inputs, root, *extra)
     found = RootBranches(
         record=record,
         problem="direct",
@@ -166,7 +167,7 @@ def coefficients_of(record: MechanismRecord, eliminant: Eliminant, given: FloatA
     many = np.concatenate([given[None], given + steps * np.maximum(np.abs(given), sizes)])  # (1 + moves, N, n)
     inputs = border.input_components(record, many.reshape(-1, given.shape[-1]))
     extra = (sign_axes(signs),) if signs else ()
-    entries = eliminant.coefficients(Floats(), record.values, inputs, *extra)
+    entries = eliminant.coefficients(Floats(), kernel_dimensions(record), inputs, *extra)
     parts, size = (2,) * len(signs), many[..., 0].size
     wide = [np.broadcast_to(np.asarray(entry, dtype=float), (*parts, size)) for entry in entries]
     values = np.stack(wide, axis=-1).reshape(*parts, *many.shape[:-1], len(wide))

@@ -18,6 +18,7 @@ from assur.kinematics import border
 from assur.kinematics.closed_form.roots import RootBranches
 from assur.kinematics.closed_form.start_system import dimensions, family, start_system
 from assur.model.closed_form import Branch, Margin, PolynomialSystem
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION
 from assur.numerics.homotopy import SAME, PathEnd, solve
@@ -127,11 +128,11 @@ def _poses(record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray
     """The branch at real unknowns (N, K, n); of a quaternion and its opposite the one with positive scalar."""
     components = border.input_components(record, inputs)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        branch = system.back(Floats(), record.values, components, tuple(np.moveaxis(x, (2, 1), (0, 1))))
+        branch = system.back(Floats(), kernel_dimensions(record), components, tuple(np.moveaxis(x, (2, 1), (0, 1))))
         if QUATERNION[0] in record.platform.pose:
             scalar = np.asarray(branch.pose[record.platform.pose.index(QUATERNION[0])])
             x = np.where(scalar.T[..., None] < 0, -x, x)
-            branch = system.back(Floats(), record.values, components, tuple(np.moveaxis(x, (2, 1), (0, 1))))
+            branch = system.back(Floats(), kernel_dimensions(record), components, tuple(np.moveaxis(x, (2, 1), (0, 1))))
     return branch
 
 

@@ -14,12 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.cache import keep, own_content
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
+from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, StrokeSign
 from assur.kinematics.modes import Problem
+from assur.model.dimensions import of_file
 from assur.model.mechanism import MechanismRecord
 from assur.version import VERSION
 
@@ -36,6 +39,8 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
     >>> [sign.joints for sign in kept_signs(load_record("planar_3rpr"), "direct")]
     [('A1', 'A2', 'A3', 'B1', 'B2', 'B3')]
     """
+    if record.modes.of_file != record.modes:  # the closed form has the names that there are with the file's dimensions
+        record = of_file(record).without_closed_form
     if record.description is None:
         return distinguishing_signs(record, problem)
     name = _name(record, problem)
@@ -49,6 +54,16 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
     with suppress(OSError):
         keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
     return signs
+
+
+def kept_signs_at(record: MechanismRecord, problem: Problem, joints: NDArray[np.float64]) -> NDArray[np.int8]:
+    """These signs (..., s) at joint values (..., n); 0 where a block is singular."""
+    own = kept_signs(record, problem)
+    platform = any(sign.needs_platform(record) for sign in own)
+    screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])), platform)
+    signs = [sign.signs(screws) for sign in own] if len(screws.values) else []
+    columns = np.array(signs, dtype=np.int8).reshape(len(own), len(screws.values)).T
+    return columns.reshape(*joints.shape[:-1], len(own))
 
 
 def _name(record: MechanismRecord, problem: Problem) -> str:

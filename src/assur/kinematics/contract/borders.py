@@ -17,6 +17,7 @@ from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.rates.motions import general, motions
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Margin
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -101,7 +102,7 @@ def _allowed(record: MechanismRecord, problem: Problem, given: FloatArray, signs
     convert = border.input_components if problem == "direct" else border.pose_components
     kernel = branch_kernel(record) if problem == "direct" else closed_form_of(record).inverse
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        margins = kernel(Floats(), record.values, convert(record, given), asked).margins
+        margins = kernel(Floats(), kernel_dimensions(record), convert(record, given), asked).margins
     rows = [np.broadcast_to(allows(record, item, margins[item.name]), len(given)) for item in _margins(record, problem)]
     return np.array(rows).reshape(len(rows), len(given))
 

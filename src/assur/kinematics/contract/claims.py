@@ -22,6 +22,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, Eliminant, PolynomialSystem
 from assur.model.file.parameters import parameter_formulas
 from assur.model.file.values import ANGLE_UNITS
+from assur.model.kernel_dimensions import is_angular
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle, rate_names
 from assur.model.written import NumberReading
@@ -107,7 +108,7 @@ class DrawnProblem:
         names = _dimensions(record, ns, general)
         self.geometry: Geometry = written_geometry(record, NumberReading(names, ns, ns.number))
         ns.positive.extend(_positive(record, names, general))
-        self.p = SimpleNamespace(**{name: _plain(ns, value) for name, value in names.items()})
+        self.p = SimpleNamespace(**{name: _taken(record, ns, name, value) for name, value in names.items()})
         self.signs = {name: ns.signs() for name in sign_names(record, problem)}
         self.branch: Branch = self._branch(SimpleNamespace(**self.signs))
         joints = self.form.joints(ns, self.p, self.branch.core)
@@ -291,9 +292,9 @@ def _positive(record: MechanismRecord, names: Mapping[str, Any], general: bool) 
                 yield names[name] if own > 0 else -names[name]
 
 
-def _plain(ns: DrawnNumbers, value: Any) -> Any:
-    """A dimension as a kernel takes it: an angle is a number of its own, as no formula of a kernel has its cosine."""
-    return ns.uniform() if isinstance(value, DrawnAngle) else value
+def _taken(record: MechanismRecord, ns: DrawnNumbers, name: str, value: Any) -> Any:
+    """A dimension as a kernel takes it: an angle as cosine and sine."""
+    return (ns.cos(value), ns.sin(value)) if is_angular(record, name) else value
 
 
 def _pose(record: MechanismRecord, ns: DrawnNumbers) -> tuple[Any, ...]:

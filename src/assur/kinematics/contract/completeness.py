@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length, joint_scales
-from assur.joint_graph.points import quantities
 from assur.kinematics import border
 from assur.kinematics.closure import assemble
 from assur.kinematics.contract.borders import named_by_signs, refusing
@@ -16,6 +15,7 @@ from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.modes import Problem, mode_text
+from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_error, pose_of
 from assur.kinematics.rates.motions import InstantaneousMotion
 from assur.kinematics.status import closed_form_of
@@ -137,8 +137,7 @@ def _left_out(solutions: Solutions, joints: FloatArray) -> BoolArray:
 
 
 def _told(record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray) -> Mismatch:
-    formulas = (record.modes.working if problem == "inverse" else record.modes.assembly).values()
-    signs = np.array([int(np.sign(value)) for value in quantities(record, formulas, joints)], dtype=np.int8)
+    signs = declared_signs(record, problem, joints)
     mode = mode_text(signs)
     other: Problem = "direct" if problem == "inverse" else "inverse"
     answer = border.inputs_of(record, joints) if problem == "inverse" else pose_of(record, joints)

@@ -8,6 +8,7 @@ from typing import Any
 
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import closed_form_of
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.recording.tape import Recorder, Tape
@@ -48,7 +49,7 @@ def taken_over(record: MechanismRecord, problem: Problem) -> tuple[tuple[frozens
 def _recorded(record: MechanismRecord, problem: Problem) -> tuple[Tape, list[int]]:
     """Everything that is held against the joint graph, and the entries of the signs."""
     form, recorder = closed_form_of(record), Recorder()
-    p = SimpleNamespace(**{name: recorder.uniform(name) for name in vars(record.values)})
+    p = kernel_dimensions(record, recorder.uniform)
     signs = {name: recorder.uniform(f"sign {name}") for name in sign_names(record, problem)}
 
     def given(name: str, angle: bool) -> Any:

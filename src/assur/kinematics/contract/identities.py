@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.contract.kernel import Kernel
+from assur.model.kernel_dimensions import angle_components, dimension_numbers, is_angular
 from assur.model.pose import QUATERNION
-from assur.numerics.prime_field import PrimeField
+from assur.numerics.prime_field import PrimeField, simplest
 from assur.numerics.residues import Draws, Residues
 
 Powers = Mapping[int, int]
@@ -62,6 +63,12 @@ class GroupedDraws(Draws):
         """A number that is the same in each group."""
         return self.grouped(self.random.integers(1, self.field.p, size=GROUPS))
 
+    def grouped_circle(self) -> tuple[Residues, Residues]:
+        """Cosine and sine of an angle that is the same in each group."""
+        half = self.dimension()
+        size = (half * half + 1).inverse()
+        return (1 - half * half) * size, 2 * half * size
+
     def grouped(self, numbers: NDArray[np.int64]) -> Residues:
         """One number for each group."""
         return Residues(self, np.repeat(numbers, EACH))
@@ -90,8 +97,9 @@ class Identities:
         self.needed = frozenset[int]().union(*(kernel.needs[k] for k in _entries(kernel)))
         self._draws = GroupedDraws(PrimeField.drawn(secret), GROUPS * EACH, secret)
         self._sound: list[NDArray[np.bool_]] = []
+        self._angles: dict[str, tuple[Residues, Residues]] = {}
         self._residues = self._drawn()
-        own = {name: np.full(SAMPLES, complex(value)) for name, value in vars(kernel.record.values).items()}
+        own = {name: np.full(SAMPLES, complex(value)) for name, value in dimension_numbers(kernel.record).items()}
         self._samples = self._complex(random, own)
         self._others = self._complex(random, self._changed(random)) if general else self._samples
         with np.errstate(all="ignore"):
@@ -206,6 +214,9 @@ class Identities:
         draws, record = self._draws, self.kernel.record
         if name.startswith("sign."):
             return draws.signs()
+        part, _, angle = name.partition(" ")
+        if angle:
+            return self._angles.setdefault(angle, self._angle(angle))[part == "sin"]
         if not self.general:
             number = draws.number(float(vars(record.values)[name]))
             if number.exact:
@@ -215,6 +226,13 @@ class Identities:
         if name in record.parameters and record.parameters[name].sign == "positive":
             draws.positive.append(number)
         return number
+
+    def _angle(self, name: str) -> tuple[Residues, Residues]:
+        """Cosine and sine of an angle among the dimensions."""
+        parameter = self.kernel.record.parameters[name]
+        turns = simplest(parameter.value) / 360 if parameter.unit == "deg" and not self.general else None
+        share = None if turns is None else self._draws.multiple(turns)
+        return self._draws.grouped_circle() if share is None else share
 
     def _given(self) -> Iterator[Residues]:
         draws = self._draws
@@ -265,6 +283,9 @@ class Identities:
             size = abs(value) or 1.0
             drawn = random.normal(0, 1, SAMPLES)
             kinds = {"positive": np.exp(drawn), "nonnegative": np.abs(drawn), "any": drawn}
+            if is_angular(record, name):
+                found |= zip(angle_components(name), (np.cos(drawn) + 0j, np.sin(drawn) + 0j), strict=True)
+                continue
             found[name] = size * kinds[sign] + 0j
         return found
 

@@ -19,6 +19,7 @@ from assur.kinematics import border
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, Eliminant, Margin, PolynomialSystem
+from assur.model.kernel_dimensions import dimension_numbers, kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.model.registry import CLOSED_FORM
@@ -93,7 +94,7 @@ class Kernel:
 
     def evaluated(self, varying: Sequence[FloatArray], signs: Mapping[str, FloatArray]) -> list[FloatArray]:
         """Every entry of the tape (S,) at given components (S,) and signs (S,), plus where none is given."""
-        known: dict[str, Any] = dict(vars(self.record.values))
+        known: dict[str, Any] = dict(dimension_numbers(self.record))
         known |= {f"sign.{name}": value for name, value in signs.items()}
         everything = {str(k): k for k in range(len(self.tape.operations))}
         whole = dataclasses.replace(self.tape, outputs=everything)
@@ -181,7 +182,7 @@ class _Writer:
 
     def __init__(self, record: MechanismRecord, question: Question, stop: Operation | None = None) -> None:
         self.record, self.question, self.form, self.ns = record, question, closed_form_of(record), _Recorder(stop)
-        self.p = SimpleNamespace(**{name: self.ns.uniform(name) for name in vars(record.values)})
+        self.p = kernel_dimensions(record, self.ns.uniform)
         self.given: list[tuple[str, bool]] = []
         self.values: dict[str, dict[str, list[Any]]] = {}
         self.margins: tuple[Margin, ...] = ()

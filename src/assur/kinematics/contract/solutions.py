@@ -15,6 +15,7 @@ from assur.kinematics.modes import Problem, mode_texts, sign_names
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, closed_form_of, scale
 from assur.model.closed_form import Margin, PolynomialSystem
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -119,7 +120,7 @@ def _listed(record: MechanismRecord, problem: Problem, branches: Branches) -> So
     unsettled = np.isin(branches.formula_status, (Status.undecided, Status.self_motion))
     finite = np.all(np.isfinite(branches.joints), axis=-1) & np.all(np.isfinite(branches.poses), axis=-1)
     chosen = branches.exists & (branches.formula_status != Status.undecided) & finite
-    jp, jq = (_matrix(rows, branches) for rows in form.jacobians(Floats(), record.values, core))
+    jp, jq = (_matrix(rows, branches) for rows in form.jacobians(Floats(), kernel_dimensions(record), core))
     named = {name: _expanded(getattr(core, sign.attribute), branches) for name, sign in form.signs.items()}
     margins = form.direct_margins if problem == "direct" else form.inverse_margins
     signs = branches.signs(problem) if problem == "direct" and not callable(form.direct) else branches.modes

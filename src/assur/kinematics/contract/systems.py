@@ -12,6 +12,7 @@ from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.pose import pose_error
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import PolynomialSystem
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
@@ -27,7 +28,7 @@ def unsolved(solutions: Solutions) -> list[Mismatch]:
     record, system = solutions.record, closed_form_of(solutions.record).direct
     if not isinstance(system, PolynomialSystem) or not len(solutions):
         return []
-    ns, p = Floats(), record.values
+    ns, p = Floats(), kernel_dimensions(record)
     inputs = border.input_components(record, solutions.inputs)
     unknowns = tuple(np.asarray(item, dtype=float) for item in system.lift(ns, p, _pose(solutions)))
     random = np.random.default_rng(0).normal(size=(len(unknowns), len(solutions)))

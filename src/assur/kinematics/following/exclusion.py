@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import declared_signs
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -23,5 +23,5 @@ MERGED = 1e-6
 
 def of_other_signs(record: MechanismRecord, problem: Problem, joints: FloatArray) -> BoolArray:
     """Which joint values (N, n) bear a sign that is the opposite of home's; false for all where modes have none."""
-    home, others = (named_signs(record, problem, values, MERGED) for values in (home_values(record), joints))
+    home, others = (declared_signs(record, problem, values, MERGED) for values in (home_values(record), joints))
     return np.asarray(np.any(others * home < 0, axis=1))

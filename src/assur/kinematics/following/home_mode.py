@@ -27,7 +27,7 @@ from assur.kinematics.following.locked import ranks_from
 from assur.kinematics.following.path import Path, Stop
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_text
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
@@ -179,7 +179,7 @@ def _all_excluded(record: MechanismRecord, solutions: SolutionSet) -> str:
         return ""
     parts = []
     if np.any(signed):
-        home = mode_text(named_signs(record, solutions.problem, home_values(record), MERGED))
+        home = mode_text(declared_signs(record, solutions.problem, home_values(record), MERGED))
         parts.append(f"none of all {len(joints)} has its signs {home}" if np.all(signed) else f"its signs are {home}")
     if reasons:
         parts.append(f"in all of it {' and '.join(dict.fromkeys(reasons))} stays as at home, in these it is another")

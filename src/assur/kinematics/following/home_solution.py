@@ -8,7 +8,7 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.following.exclusion import MERGED
 from assur.kinematics.following.home_marks import HomeSolution, marked_words
 from assur.kinematics.home import home_values
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import declared_signs
 
 
 def home_solution(solutions: SolutionSet) -> HomeSolution:
@@ -37,8 +37,8 @@ def home_solution(solutions: SolutionSet) -> HomeSolution:
 
 def _signs_of_home(solutions: SolutionSet) -> np.ndarray[tuple[int], np.dtype[np.bool_]] | None:
     """Which solutions have all the signs that name home's mode; None where there are no such signs."""
-    home = named_signs(solutions.record, solutions.problem, home_values(solutions.record), MERGED)
+    home = declared_signs(solutions.record, solutions.problem, home_values(solutions.record), MERGED)
     if not home.size or np.any(home == 0):
         return None
-    listed = named_signs(solutions.record, solutions.problem, solutions.joints[solutions.exists], MERGED)
+    listed = declared_signs(solutions.record, solutions.problem, solutions.joints[solutions.exists], MERGED)
     return np.asarray(np.all(listed == home, axis=1))

@@ -14,7 +14,7 @@ from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.platform_held import PlatformHeld, holding, passes_zero
 from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.ways import Straight
-from assur.kinematics.named_signs import named_signs
+from assur.kinematics.naming import declared_signs
 from assur.kinematics.newton import moved
 from assur.kinematics.turns import joint_units, whole_turns_less
 from assur.model.mechanism import MechanismRecord
@@ -131,4 +131,4 @@ def _holding(
 
 def held_signs(record: MechanismRecord, held: Prescribed, joints: FloatArray) -> NDArray[np.int8]:
     """Signs (..., s) of what names the modes with the platform held (working modes) or the inputs (assembly modes)."""
-    return named_signs(record, "inverse" if held == "poses" else "direct", joints)
+    return declared_signs(record, "inverse" if held == "poses" else "direct", joints)

@@ -17,6 +17,7 @@ from assur.kinematics.closed_form.mode_reading import ModeReading, mode_reading_
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.rates.units import scaled, unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
+from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -167,7 +168,7 @@ def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | 
         raise UsageError(f"{record.name} has no printed Jacobian that differs from the regular one")
     read = mode_reading_at(record, mode, given)
     with np.errstate(divide="ignore", invalid="ignore"):
-        jp, jq = form.as_printed(read.ns, record.values, read.branch.core)
+        jp, jq = form.as_printed(read.ns, kernel_dimensions(record), read.branch.core)
     return _velocity_map(read, given.shape[:-1], jp, jq)
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Branch
+from assur.model.kernel_dimensions import is_angular
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.formulas.latex import name_mathml
@@ -117,7 +118,10 @@ class _Reader:
         """Run every kernel of the problem with the letters of a book."""
         form, ns = closed_form_of(self.record), Tracing(book)
         p = SimpleNamespace(
-            **{name: leaf(book, Letter(name, name_mathml(name)), self._at(name)) for name in self.record.parameters}
+            **{
+                name: self._given(book, letters_of(name, "", is_angular(self.record, name)))
+                for name in self.record.parameters
+            }
         )
         given = tuple(self._given(book, letters) for letters in self._coordinates(self.problem))
         kernel = branch_kernel(self.record) if self.problem == "direct" else form.inverse

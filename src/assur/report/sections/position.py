@@ -8,6 +8,7 @@ from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border,
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import given_words
 from assur.kinematics.modes import Problem
+from assur.kinematics.named_signs import written_quantities
 from assur.kinematics.naming import described_signs
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
@@ -74,11 +75,11 @@ def _residual(answer: SolutionSet) -> float:
 
 
 def _modes(record: MechanismRecord) -> list[Table]:
-    defaults = record.modes.default_working, record.modes.default_assembly
+    written = record.modes.of_file
+    defaults = written.default_working, written.default_assembly
     rows = []
-    for what, signs, default in zip(
-        ("working", "assembly"), (record.modes.working, record.modes.assembly), defaults, strict=True
-    ):
+    quantities = written_quantities(record, "inverse"), written_quantities(record, "direct")
+    for what, signs, default in zip(("working", "assembly"), quantities, defaults, strict=True):
         for place, (name, formula) in enumerate(signs.items()):
             rows.append((what, named_formula(name), formula.text, default[place : place + 1] or None))
     own = _signs_of_blocks(record)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from assur.results.answers.answer import Answer
+from assur.results.answers.answer import ABSENT, Absent, Answer
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,9 @@ class DerivedProblem:
 
 @dataclass(frozen=True)
 class DerivationAnswer(Answer):
-    """What was derived of a mechanism, problem by problem, and the file that was written."""
+    """What was derived of a mechanism, problem by problem, and the file that was written, or why none was."""
 
     mechanism: str
     problems: tuple[DerivedProblem, ...]
     closed_form: str | None
+    not_written: str | Absent = ABSENT

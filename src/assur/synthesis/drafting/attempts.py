@@ -11,6 +11,7 @@ from assur.errors import AssurError
 from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
+from assur.kinematics.named_signs import written_quantities
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.structure import linkage
 from assur.kinematics.validation.check import faults
@@ -162,7 +163,9 @@ class DraftQuestion:
             return chosen
         record = self._read(drawn, dataclasses.replace(chosen, working=_working(drawn, knees)))
         values = home_values(record)
-        sizes = iter([float(quantity(record, formula, values)) for formula in record.modes.working.values()])
+        sizes = iter(
+            [float(quantity(record, formula, values)) for formula in written_quantities(record, "inverse").values()]
+        )
         counted = []
         for template, knee in zip(drawn.templates, knees, strict=True):
             bends = [next(sizes) for _ in template.angles]
