@@ -50,6 +50,8 @@ def _not_written(record: Mechanism, path: Path) -> str:
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
     try:
         solution = analytic_solution(record, problem)
+        if not solution.closes():
+            raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
     except NotDerivedError as error:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
     sets = tuple(
@@ -66,7 +68,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         for part in solution.sets
     )
     return DerivedProblem(
-        problem, "derived", "", solution.branches, solution.closes(), tuple(_reasons(solution)), (*record.generalised,),
+        problem, "derived", "", solution.branches, True, tuple(_reasons(solution)), (*record.generalised,),
         sets, {own.symbol.name: str(own.formula) for own in solution.lengths}, dict(_results(solution)),
     )  # fmt: skip
 
