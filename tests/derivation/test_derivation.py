@@ -18,11 +18,13 @@ from assur.model.registry import load_record
 
 TOWERS = ("zeng2019", "fivebar", "orthoglide", "tripteron", "linear_delta_4r", "delta_4s", "tsai_platform",
           "three_p2us", "linear_delta_4s", "three_crr")  # fmt: skip
-QUICK = ("zeng2019", "fivebar", "orthoglide")
+POLYNOMIALS = ("planar_3rrr", "three_rrc")
+QUICK = ("zeng2019", "fivebar", "orthoglide", *POLYNOMIALS)
 
 
 @pytest.fixture(
-    scope="module", params=[name if name in QUICK else pytest.param(name, marks=pytest.mark.deep) for name in TOWERS]
+    scope="module",
+    params=[name if name in QUICK else pytest.param(name, marks=pytest.mark.deep) for name in (*TOWERS, *POLYNOMIALS)],
 )
 def both(request, tmp_path_factory):
     """The record of a mechanism with its hand-written form, and one with the derived form."""

@@ -1,8 +1,12 @@
 """Towers of square roots: as many branches as the hand-written forms have, each of which closes every loop exactly."""
 
+import random
+from operator import ge
+
 import pytest
 import sympy
 
+from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import analytic_solution
 from assur.model.registry import load_record
@@ -12,6 +16,8 @@ BRANCHES = {
     "delta_4s": (2, 8), "tsai_platform": (2, 8), "three_p2us": (2, 8), "linear_delta_4s": (2, 8), "three_crr": (8, 8),
 }  # fmt: skip
 """Of the direct and the inverse problem."""
+POLYNOMIALS = (("planar_3rrr", 6, "platform"), ("three_rrc", 8, "leg2_rod"), ("planar_3rpr", 6, "platform"))
+"""Degree, and the link in whose angle it is."""
 QUICK = ("zeng2019", "fivebar", "orthoglide", "tripteron")
 
 
@@ -44,6 +50,50 @@ def test_a_root_with_the_other_sign_everywhere_would_not_be_noticed_but_a_wrong_
     assert not solution.closes()
 
 
+def test_a_coupled_set_ends_in_one_polynomial_whose_roots_close_every_loop():
+    for name, degree, unknown in POLYNOMIALS:
+        solution = analytic_solution(load_record(name), "direct")
+        assert (solution.branches, solution.eliminant.degree) == (degree, degree)
+        assert solution.eliminant.direction.name == unknown
+        assert solution.closes()
+        assert solution.group.insoluble
+
+
+def test_a_wrong_coefficient_of_a_polynomial_is_noticed():
+    solution = analytic_solution(load_record("three_rrc"), "direct")
+    wrong = solution.eliminant.known[-1]
+    object.__setattr__(wrong, "formula", wrong.formula * 2)
+    assert not solution.closes()
+
+
+@pytest.mark.parametrize("name", [name for name, _, _ in POLYNOMIALS])
+def test_the_degree_is_the_number_of_solutions_of_the_loop_equations_modulo_a_prime(name):
+    """Counted by a Groebner basis of the loop equations: another way than by elimination."""
+    solution = analytic_solution(load_record(name), "direct")
+    equations = [value_of(form) for form in solution.sets[0].equations]
+    equations += [direction.quadric for direction in solution.sets[0].directions]
+    for own in reversed(solution.eliminant.known):
+        equations = [equation.subs(own.symbol, own.formula) for equation in equations]
+    unknowns = [unknown for direction in solution.sets[0].directions for unknown in direction.unknowns]
+    prime, field = 32003, random.Random(5)
+    left = sorted({symbol for equation in equations for symbol in equation.free_symbols} - {*unknowns}, key=str)
+    drawn = {symbol: field.randrange(1, prime) for symbol in left}
+    drawn[sympy.sqrt(3)] = next(k for k in range(prime) if k * k % prime == 3)
+    basis = sympy.groebner([equation.subs(drawn) for equation in equations], *unknowns, modulus=prime, order="grevlex")
+    leading = [sympy.Poly(part, *unknowns).monoms("grevlex")[0] for part in basis.exprs]
+    assert _below(leading) == solution.branches
+
+
+def _below(leading):
+    """How many monomials none of these divides."""
+    count, waiting = 0, {(0,) * len(leading[0])}
+    while waiting:
+        free = {own for own in waiting if not any(all(map(ge, own, lead)) for lead in leading)}
+        count += len(free)
+        waiting = {(*own[:k], own[k] + 1, *own[k + 1 :]) for own in free for k in range(len(own))}
+    return count
+
+
 def test_links_that_belong_together_are_named_and_not_solved():
-    with pytest.raises(NotDerivedError, match="leg1_rod and platform and leg2_rod and leg3_rod belong together"):
-        analytic_solution(load_record("planar_3rrr"), "direct")
+    with pytest.raises(NotDerivedError, match="neither fixed in orientation, nor turning about one direction"):
+        analytic_solution(load_record("h4_robot"), "direct")

@@ -29,11 +29,15 @@ def derive(
     equations of each, and the formulas that solve them: square roots, one for
     each choice of two. Every step is a linear elimination or the meeting of a
     line with a circle or a sphere, so no branch is missing where its conditions
-    hold; then every branch is held against the loops, modulo a prime.
+    hold; then every branch is held against the loops, modulo a prime. Where
+    links belong together, an angle of one of them is taken as known: the others
+    follow linearly, and what is left over is one polynomial in that angle.
 
     The file that -o writes holds for any dimensions. Beside the mechanism's file
     as closed_form.py it makes every command fast, and `assur check` holds it
-    against the joint graph. Exit code 5: a set of links resists; it is named.
+    against the joint graph. Exit codes: 0, square roots or one polynomial, and
+    whether it is proved that no square roots would do; 5, a set of links
+    resists, and is named.
 
     For example:
         assur derive zeng2019

@@ -61,15 +61,16 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
             tuple(f"{value_of(form)} = 0" for form in part.equations),
             tuple(f"{value_of(form)} = 0" for form in part.lines),
             tuple(f"{condition} != 0" for condition in part.conditions),
-            {own.symbol.name: str(own.formula) for own in part.definitions},
+            {own.symbol.name: str(own.formula) for own in part.formulas},
             tuple(DerivedChoice(own.symbol.name, own.radicand.name, str(own.quantity)) for own in part.roots),
-            2 ** len(part.roots),
+            part.count,
         )
         for part in solution.sets
     )
     return DerivedProblem(
         problem, "derived", "", solution.branches, True, tuple(_reasons(solution)), (*record.generalised,),
         sets, {own.symbol.name: str(own.formula) for own in solution.lengths}, dict(_results(solution)),
+        solution.group.sentence if solution.group else "",
     )  # fmt: skip
 
 
@@ -101,6 +102,8 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
             proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
             yield f"{proved}, modulo a prime of 160 bits"
+            if part.proved:
+                yield f"proved by factors modulo primes: {part.proved}"
         else:
             yield heading(f"{data.mechanism}, {part.problem}: not derived")
             yield part.why

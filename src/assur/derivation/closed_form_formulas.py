@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import sympy
 
+from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
+from assur.derivation.linear import tidy
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
@@ -27,11 +29,13 @@ class ClosedFormFormulas:
     Attributes:
         direct, inverse: the solutions.
         signs: problem, symbol of a root -> the name of its sign, and whether it is that sign or its opposite.
+        factor_signs: name of a sign that no root has -> a formula that has it.
     """
 
     direct: AnalyticSolution
     inverse: AnalyticSolution
     signs: Mapping[tuple[Problem, sympy.Symbol], tuple[str, int]]
+    factor_signs: Mapping[str, sympy.Expr] = field(default_factory=dict)
 
     def solution(self, problem: Problem) -> AnalyticSolution:
         """Of one problem."""
@@ -40,6 +44,7 @@ class ClosedFormFormulas:
     def in_unknowns(self, solution: AnalyticSolution, value: sympy.Expr) -> sympy.Expr:
         """A formula with what is defined written out, down to the unknowns of the solution."""
         kept = {unknown for direction in solution.loops.directions for unknown in direction.unknowns}
+        kept |= {*solution.loops.strokes}
         known = {own.symbol: own.formula for own in solution.definitions if own.symbol not in kept}
         while defined := value.free_symbols & known.keys():
             value = value.subs({symbol: known[symbol] for symbol in defined})
@@ -137,12 +142,21 @@ class ClosedFormFormulas:
         solution = self.solution(problem)
         for part in solution.sets:
             for number, condition in enumerate(part.conditions, start=1):
-                if condition.free_symbols - {*self.inverse.symbols.parameters.values()}:
+                if self._divides(solution, part, condition):
                     yield self._condition_name(condition, part.directions[0].name, number), condition
             for root in part.roots:
                 yield root.radicand.name, root.radicand
         for tilt in self.joints.tilts:
             yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
+
+    def _divides(self, solution: AnalyticSolution, part: SolvedSet, condition: sympy.Expr) -> bool:
+        """Whether a condition is of more than dimensions, and of a polynomial's unknowns one that is divided by."""
+        if not self.in_unknowns(solution, condition).free_symbols - {*self.inverse.symbols.parameters.values()}:
+            return False
+        if part.eliminant is None or condition.is_Symbol:
+            return True
+        under = {factor for own in part.definitions for factor in _factors(sympy.fraction(tidy(own.formula))[1])}
+        return bool(_factors(sympy.fraction(tidy(condition))[0]) & under)
 
     def _condition_name(self, condition: sympy.Expr, link: str, number: int) -> str:
         return condition.name if condition.is_Symbol else f"c{number}_{link}"
@@ -150,7 +164,7 @@ class ClosedFormFormulas:
     @cached_property
     def sign_values(self) -> dict[str, sympy.Expr]:
         """Name of a sign -> what it is the sign of, in the unknowns of the inverse problem and the pose."""
-        values = {}
+        values = dict(self.factor_signs)
         for solution in (self.inverse, self.direct):
             for root in solution.roots:
                 name, sense = self.signs[solution.symbols.problem, root.symbol]
@@ -199,6 +213,10 @@ class ClosedFormFormulas:
     @cached_property
     def _sizes(self) -> Sizes:
         return Sizes(self.inverse, frozenset(own for own in self.printed_inputs if not isinstance(own, tuple)))
+
+
+def _factors(formula: sympy.Expr) -> set[sympy.Expr]:
+    return {factor for factor, _ in sympy.factor_list(formula)[1]}
 
 
 def _real(name: str) -> sympy.Symbol:

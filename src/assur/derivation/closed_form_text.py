@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import sympy
 
+from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
-from assur.derivation.elimination import Definition, Root
+from assur.derivation.definitions import Definition, FreeNames
+from assur.derivation.elimination import Root
 from assur.derivation.joint_formulas import BallRotation
 from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
+from assur.derivation.symbols import circle_of
 from assur.kinematics.modes import Problem
 from assur.kinematics.named_signs import written_quantities
 from assur.kinematics.naming import sign_meanings
@@ -21,8 +24,17 @@ CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}.""
 
 from types import SimpleNamespace
 
-from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Sign
+from assur.model.closed_form import {declared}
 {imports}
+'''
+
+OVER_CIRCLE = '''
+def _over_circle(values):
+    """A polynomial in t, over 1 + t^2, which divides it."""
+    quotient = []
+    for k in range(len(values) - 2):
+        quotient.append(values[k] - quotient[k - 2] if k > 1 else values[k])
+    return tuple(quotient)
 '''
 
 
@@ -41,8 +53,8 @@ class ClosedFormText:
     def text(self) -> str:
         """The file."""
         parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._core(), self._joints(),
-                 self._factors(), self._jacobians(), self._declaration()]  # fmt: skip
-        return "\n\n".join(part.strip("\n") + "\n" for part in parts)
+                 self._factors(), self._jacobians(), self._quantities(), self._declaration()]  # fmt: skip
+        return "\n\n".join(part.strip("\n") + "\n" for part in parts if part)
 
     @cached_property
     def printer(self) -> KernelPrinter:
@@ -53,13 +65,18 @@ class ClosedFormText:
         record = self.formulas.inverse.symbols.record
         sets = "; ".join(part.name for part in self.formulas.direct.sets)
         imports = []
+        declared = ["Branch", "ClosedForm", "Factor", "Margin", "Sign"]
+        if self._eliminant is not None:
+            declared = sorted([*declared, "Eliminant", "Quantity"])
+            imports.append("from assur.numerics.expanded import coefficients_of, unknowns")
         if self.formulas.joints.pointings:
             imports.append("from assur.numerics.legs import pointing")
         used = {"taking": bool(self.formulas.joints.tilts), "product": self._many, "transposed": self._turned}
         vectors = sorted(name for name, needed in used.items() if needed)
         if vectors:
             imports.append(f"from assur.numerics.vectors import {', '.join(vectors)}")
-        return CODE_HEAD.format(name=record.name, sets=sets, imports="\n".join(imports))
+        own = {"name": record.name, "sets": sets, "imports": "\n".join(imports), "declared": ", ".join(declared)}
+        return CODE_HEAD.format(**own)
 
     @cached_property
     def _balls(self) -> list[BallRotation]:
@@ -74,6 +91,8 @@ class ClosedFormText:
         return any(turned for ball in self._balls for _, turned in ball.parts)
 
     def _problem(self, problem: Problem) -> str:
+        if problem == "direct" and self._eliminant is not None:
+            return "\n\n".join(part.strip("\n") + "\n" for part in self._polynomial(self._eliminant))
         solution = self.formulas.solution(problem)
         names = [self.formulas.signs[problem, root.symbol][0] for root in solution.roots]
         title = "Pose at given inputs" if problem == "direct" else "Inputs at a pose"
@@ -81,10 +100,16 @@ class ClosedFormText:
         lines = [f"def {problem}(ns, p, {given}, sign):"]
         lines.append(f'    """{title}. Signs: {", ".join(names) or "none"}."""')
         lines += self._given(problem)
-        roots = {root.symbol: root for root in solution.roots}
-        for own in solution.definitions:
-            lines.append(self._line(problem, own, roots))
-        lines += [f"    {symbol.name} = {self.printer.doprint(value)}" for symbol, value in self.formulas.rest(problem)]
+        lines += self._lines(problem, solution.definitions)
+        return "\n".join([*lines, *self._branch(problem)])
+
+    def _lines(self, problem: Problem, definitions: Iterable[Definition]) -> Iterator[str]:
+        roots = {root.symbol: root for root in self.formulas.solution(problem).roots}
+        return (self._line(problem, own, roots) for own in definitions)
+
+    def _branch(self, problem: Problem) -> list[str]:
+        """The rest of a kernel, once its unknowns are known."""
+        lines = [f"    {symbol.name} = {self.printer.doprint(value)}" for symbol, value in self.formulas.rest(problem)]
         lines.append(f"    core = _core(ns, p, {', '.join(map(str, [*self.formulas.posed, *self.formulas.unknowns]))})")
         margins = ", ".join(
             f'"{name}": {self.printer.doprint(value)}' for name, value in self.formulas.margins(problem)
@@ -92,7 +117,63 @@ class ClosedFormText:
         pose, inputs = self._pair_text(self.formulas.posed_pairs), self._pair_text(self.formulas.input_pairs)
         lines.append(f"    margins = {{{margins}}}")
         lines.append(f"    return Branch({pose}, {inputs}, margins, core)")
-        return "\n".join(lines)
+        return lines
+
+    @cached_property
+    def _eliminant(self) -> AngleEliminant | None:
+        return self.formulas.direct.eliminant
+
+    @property
+    def _unknown(self) -> str:
+        """What the polynomial is in, as a quantity: the platform's angle, or that of a link."""
+        record, eliminant = self.formulas.direct.symbols.record, self._eliminant
+        if eliminant is None:
+            return ""
+        posed = "phi" in record.platform.pose and record.platform.link in eliminant.direction.links
+        return "phi" if posed else eliminant.direction.name
+
+    def _polynomial(self, eliminant: AngleEliminant) -> Iterator[str]:
+        """The kernels of a direct problem that ends in one polynomial."""
+        solution, names = self.formulas.direct, [self.formulas.signs["direct", own.symbol][0] for own in
+                                                 self.formulas.direct.roots]  # fmt: skip
+        arguments = "ns, p, inputs" + (", sign" if names else "")
+        before: list[Definition] = []
+        for part in solution.sets:
+            if part.eliminant is not None:
+                break
+            before += part.definitions
+        cosine, sine = eliminant.direction.unknowns
+        one = FreeNames({*solution.symbols.parameters, str(cosine), str(sine)}).named("one")
+        last = eliminant.steps[-1].symbol
+        lines = [f"def coefficients({arguments}):"]
+        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self._unknown}/2)."""')
+        lines += self._given("direct")
+        lines += self._lines("direct", (*before, *eliminant.known))
+        lines.append("    (t,) = unknowns(1)")
+        lines.append(f"    {cosine}, {sine}, {one} = 1 - t * t, 2 * t, 1 + t * t")
+        lines += self._lines("direct", eliminant.program(one))
+        text = f"coefficients_of({last}, {eliminant.degree + 2 * eliminant.spare + 1})"
+        for _ in range(eliminant.spare):
+            text = f"_over_circle({text})"
+        yield "\n".join([*lines, f"    return {text}"])
+        if eliminant.spare:
+            yield OVER_CIRCLE
+        lines = [f"def back({arguments}, root):" if not names else "def back(ns, p, inputs, root, sign):"]
+        lines.append(f'    """The pose at a root, cosine and sine of {self._unknown}."""')
+        lines += self._given("direct")
+        lines.append(f"    {cosine}, {sine} = root")
+        lines += self._lines("direct", solution.definitions)
+        yield "\n".join([*lines, *self._branch("direct")])
+
+    def _quantities(self) -> str:
+        """The unknown of the polynomial by name."""
+        if self._eliminant is None:
+            return ""
+        cosine, sine = self._eliminant.direction.unknowns
+        text = f'    return {{"{self._unknown}": (core.{cosine}, core.{sine})}}'
+        if self._unknown == "phi":
+            text = f'    return {{"phi": ({", ".join(f"core.{own}" for own in circle_of("phi"))})}}'
+        return f'def quantities(ns, p, core):\n    """The unknown of the direct problem."""\n{text}\n'
 
     def _line(self, problem: Problem, own: Definition, roots: Mapping[sympy.Symbol, Root]) -> str:
         text = self.printer.doprint(own.formula)
@@ -203,7 +284,18 @@ class ClosedFormText:
             lines.append(
                 '    reduced_because="parallelograms stay such, and what they keep from turning is not turned over",'
             )
-        lines += [f"    {name}={name}," for name in ("direct", "inverse", "joints", "factors", "jacobians")]
+        eliminant = self._eliminant
+        if eliminant is None:
+            lines.append("    direct=direct,")
+        else:
+            signs = tuple(self.formulas.signs["direct", own.symbol][0] for own in self.formulas.direct.roots)
+            extra = f", {signs!r}" if signs else ""
+            degree = self.formulas.direct.branches
+            lines.append(f'    direct=Eliminant("{self._unknown}", "angle", {degree}, coefficients, back{extra}),')
+            lines.append("    quantities=quantities,")
+            meaning = f"angle of {eliminant.direction.links[0]}, the unknown of the direct problem"
+            lines.append(f'    quantity_list=(Quantity("{self._unknown}", "angle", "", meaning="{meaning}"),),')
+        lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
         lines.append("    signs={")
         scales = {name: self.formulas.scale(value) for name, value in self.formulas.sign_values.items()}
         lines += [f'        "{name}": Sign("{sign_attribute(name)}", "{scale}"),' for name, scale in scales.items()]

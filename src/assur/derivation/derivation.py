@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_text import ClosedFormText
-from assur.derivation.mode_signs import root_signs
+from assur.derivation.mode_signs import matched_signs
 from assur.derivation.rank_losses import rank_losses
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.model.mechanism import MechanismRecord
@@ -22,8 +22,8 @@ class Derivation:
 
     def closed_form(self) -> str:
         """The file `closed_form.py`. Errors: NotDerivedError."""
-        signs = root_signs(self.direct, self.inverse)
-        plain = ClosedFormText(ClosedFormFormulas(self.direct, self.inverse, signs))
+        signs = matched_signs(self.direct, self.inverse)
+        plain = ClosedFormText(ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors))
         return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
 
 

@@ -12,22 +12,15 @@ from dataclasses import dataclass
 
 import sympy
 
-from assur.derivation.linear import ONE, Form, divided, form_of, never_zero, rank, solved, tidy, value_of
+from assur.derivation.angle_eliminant import AngleEliminant
+from assur.derivation.definitions import Definition
+from assur.derivation.linear import ONE, Form, divided, never_zero, rank, solved, tidy, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
 
 ZERO = sympy.Integer(0)
-
-
-@dataclass(frozen=True)
-class Definition:
-    """A symbol, the formula that it stands for, and why, in a few words."""
-
-    symbol: sympy.Symbol
-    formula: sympy.Expr
-    meaning: str = ""
 
 
 @dataclass(frozen=True)
@@ -50,6 +43,8 @@ class SolvedSet:
         conditions: what was divided by, and must not vanish.
         definitions: symbols in the order of computation, those of the directions last.
         roots: the choices of two.
+        eliminant: of a coupled set the polynomial by whose roots it is solved; definitions of what follows of a root
+            stand after those of what is known before.
     """
 
     directions: tuple[UnknownDirection, ...]
@@ -58,11 +53,25 @@ class SolvedSet:
     conditions: tuple[sympy.Expr, ...]
     definitions: tuple[Definition, ...]
     roots: tuple[Root, ...]
+    eliminant: AngleEliminant | None = None
 
     @property
     def name(self) -> str:
         """The links that are solved for."""
         return " and ".join(direction.name for direction in self.directions)
+
+    @property
+    def count(self) -> int:
+        """How many solutions it has, over complex numbers, for each of those before."""
+        return int(2 ** len(self.roots)) * (self.eliminant.degree if self.eliminant else 1)
+
+    @property
+    def formulas(self) -> tuple[Definition, ...]:
+        """The definitions, and the polynomial that vanishes before what follows of a root."""
+        if self.eliminant is None:
+            return self.definitions
+        before = len(self.eliminant.known) + len(self.eliminant.entries) + len(self.eliminant.steps) - 1
+        return (*self.definitions[:before], self.eliminant.steps[-1], *self.definitions[before:])
 
 
 def solution(
@@ -110,9 +119,10 @@ class _Set:
         unknowns = [unknown for direction in self.others for unknown in direction.unknowns]
         values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
         given = len(lines)
-        lines += [line for direction in self.others if (line := self._line(direction, values)) is not None]
+        curved = [direction for direction in self.others if direction.kind != "stroke"]
+        lines += [line for direction in curved if (line := self._line(direction, values)) is not None]
         lines = self._independent(lines)
-        (self._circle if self.base.kind == "circle" else self._sphere)(lines)
+        {"circle": self._circle, "rod": self._sphere, "stroke": self._vector}[self.base.kind](lines)
         for unknown in unknowns:
             self._define(unknown, value_of(values[unknown]))
         return SolvedSet(
@@ -126,22 +136,26 @@ class _Set:
 
     def _line(self, direction: UnknownDirection, values: dict[sympy.Symbol, Form]) -> Form | None:
         """What an direction's quadric says beside the base's: a linear equation of the base's unknowns."""
-        own = self.base.unknowns
-        quadric = sympy.expand(sum(value_of(values[unknown]) ** 2 for unknown in direction.unknowns) - 1)
-        square = quadric.coeff(own[0], 2)
-        quadric = sympy.expand(quadric - square * self.base.quadric)
-        left = [quadric.coeff(a, 2) if a == b else quadric.coeff(a, 1).coeff(b, 1) for a in own for b in own]
-        if not all(map(self.witness.is_zero, left)):
+        own, total = self.base.unknowns, dict[tuple[sympy.Expr, sympy.Expr], sympy.Expr]()
+        keys = (*own, ONE)
+        for form in (values[unknown] for unknown in direction.unknowns):
+            for k, a in enumerate(keys):
+                for b in keys[k:]:
+                    share = form.get(a, ZERO) * form.get(b, ZERO)
+                    total[a, b] = total.get((a, b), ZERO) + (share if a == b else 2 * share)
+        square = total[own[0], own[0]]
+        total |= {(a, a): total[a, a] - square for a in own}
+        if not all(self.witness.is_zero(total[a, b]) for k, a in enumerate(own) for b in own[k:]):
             raise NotDerivedError(f"the quadrics of {self.base.name} and {direction.name} have no line in common")
-        linear = sum(quadric.coeff(a, 1).subs(dict.fromkeys(own, 0)) * a for a in own)
-        form = form_of(linear + quadric.subs(dict.fromkeys(own, 0)), own, self.witness)
-        return self._divided(form) if form else None
+        line = {a: total[a, ONE] for a in own} | {ONE: total[ONE, ONE] + square - 1}
+        line = {key: tidy(part) for key, part in line.items() if not self.witness.is_zero(part)}
+        return self._divided(line) if line else None
 
     def _divided(self, form: Form) -> Form:
         """A form without the factor that all of it shares, which is kept as a condition."""
         plain = divided(form)
         key = next(iter(form))
-        shared, _ = sympy.fraction(sympy.cancel(form[key] / plain[key]))
+        shared, _ = sympy.fraction(tidy(form[key] / plain[key]))
         self.conditions += [factor for factor, _ in sympy.factor_list(shared)[1] if not never_zero(factor)]
         return plain
 
@@ -185,9 +199,7 @@ class _Set:
         """A cos + b sin + d = 0 on the unit circle."""
         cosine, sine = self.base.unknowns
         if len(lines) > 1:
-            values, _ = solved(lines, self.base.unknowns, self.witness, self.conditions)
-            for unknown in self.base.unknowns:
-                self._define(unknown, value_of(values[unknown]))
+            self._vector(lines)
             return
         (line,) = lines
         a, b, d = line.get(cosine, ZERO), line.get(sine, ZERO), -line.get(ONE, ZERO)
@@ -205,6 +217,12 @@ class _Set:
         root = self._root(square - d**2, a * sine - b * cosine)
         self._define(cosine, (a * d - b * root) / square)
         self._define(sine, (b * d + a * root) / square)
+
+    def _vector(self, lines: Sequence[Form]) -> None:
+        """As many linear equations as unknowns."""
+        values, _ = solved(lines, self.base.unknowns, self.witness, self.conditions)
+        for unknown in self.base.unknowns:
+            self._define(unknown, value_of(values[unknown]))
 
     def _sphere(self, lines: Sequence[Form]) -> None:
         """Two planes n.e = k meet in a line along w = n1 x n2, which meets the unit sphere."""

@@ -6,7 +6,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.loop_equations import LoopEquations
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.symbols import GivenSymbols, circle_of
 from assur.joint_graph.frames import frames
@@ -17,10 +17,8 @@ from assur.model.pose import ANGLES
 FloatArray = NDArray[np.float64]
 
 
-def home_numbers(
-    symbols: GivenSymbols, placed: LinkOrientations, directions: tuple[UnknownDirection, ...]
-) -> dict[sympy.Symbol, float]:
-    """Symbol -> its value at home: dimensions, inputs, coordinates of the pose, unknowns of directions."""
+def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, loops: LoopEquations) -> dict[sympy.Symbol, float]:
+    """Symbol -> its value at home: dimensions, inputs, coordinates of the pose, unknowns of directions, lengths."""
     record, values = symbols.record, home_values(symbols.record)
     numbers: dict[sympy.Symbol, float] = {
         symbol: record.parameters[name].inside for name, symbol in symbols.parameters.items()
@@ -31,7 +29,9 @@ def home_numbers(
     for name, value in zip(record.platform.pose, pose.pose_of(record, values), strict=True):
         numbers |= _named(name, float(value), name in ANGLES)
     rotations = frames(record, values)
-    for direction in directions:
+    for index, length in loops.lengths.items():
+        numbers[length] = float(values[index])
+    for direction in loops.directions:
         link = next(link for link in direction.links if link in record.links)
         own = placed.links[link]
         constant = _array(own.constant, numbers)

@@ -11,7 +11,7 @@ from typing import Any
 from sympy import expand_trig
 from sympy.printing.pycode import PythonCodePrinter
 
-from assur.derivation.elimination import Definition
+from assur.derivation.definitions import Definition
 from assur.derivation.not_derived import NotDerivedError
 
 WIDTH = 116

@@ -7,11 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 import sympy
 
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.quotients import cancelled, primitive
 from assur.derivation.witness import ModularWitness
 
 Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
 """Unknown -> its coefficient; of 1 the constant. What is zero is left out."""
 ONE = sympy.Integer(1)
+LONG = 200
+"""Operations of two equations that are not combined only so that one of them gets shorter."""
 VANISHED = 1e-9
 """A coefficient at home, of lengths in the file's unit, that is rounding."""
 
@@ -30,11 +33,8 @@ def form_of(expression: sympy.Expr, unknowns: Sequence[sympy.Symbol], witness: M
 
 
 def tidy(formula: sympy.Expr) -> sympy.Expr:
-    """A formula over one denominator without common factors, if it has one."""
-    expanded = sympy.expand(formula)
-    if any(part.exp.is_negative for part in expanded.atoms(sympy.Pow) if part.base.free_symbols):
-        return sympy.cancel(sympy.together(formula))
-    return expanded
+    """A formula multiplied out, over one denominator without common factors, if it has one."""
+    return cancelled(sympy.sympify(formula))
 
 
 def value_of(form: Form) -> sympy.Expr:
@@ -131,16 +131,7 @@ def divided(row: Form) -> Form:
     >>> divided({x: 2 * a / y, y: a})
     {x: 2, y: y}
     """
-    keys = list(row)
-    fractions = [sympy.fraction(sympy.cancel(sympy.together(row[key]))) for key in keys]
-    scale = sympy.Integer(1)
-    for _, denominator in fractions:
-        scale = sympy.lcm(scale, denominator)
-    whole = [sympy.cancel(numerator * scale / denominator) for numerator, denominator in fractions]
-    shared = whole[0]
-    for part in whole[1:]:
-        shared = sympy.gcd(shared, part)
-    return {key: sympy.cancel(part / shared) for key, part in zip(keys, whole, strict=True)}
+    return dict(zip(row, primitive([*row.values()]), strict=True))
 
 
 def sparse(forms: Sequence[Form], witness: ModularWitness, everywhere: bool = False) -> list[Form]:
@@ -171,6 +162,9 @@ def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -
             if other is form or not shared or len(other) > len(form) + 1:
                 continue
             for key in shared:
+                count, (size, length) = _left(form, key, other, witness), _size(form)
+                if count > size or (count == size and length + _size(other)[1] > LONG):
+                    continue
                 share = tidy(-form[key] / other[key])
                 if everywhere and not never_zero(share):
                     continue
@@ -178,6 +172,15 @@ def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -
                 if _size(changed) < _size(form):
                     return k, changed
     return None
+
+
+def _left(form: Form, key: sympy.Symbol, other: Form, witness: ModularWitness) -> int:
+    """How many unknowns are left of a form less that multiple of another by which a key vanishes."""
+    zero = sympy.Integer(0)
+    return sum(
+        not witness.vanishes(form.get(own, zero), other[key], form[key], other.get(own, zero))
+        for own in (form.keys() | other.keys()) - {ONE, key}
+    )
 
 
 def _size(form: Form) -> tuple[int, int]:

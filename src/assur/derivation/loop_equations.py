@@ -8,7 +8,7 @@ one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import sympy
@@ -26,16 +26,16 @@ from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtr
 
 @dataclass(frozen=True)
 class UnknownDirection:
-    """What is unknown of a link: cosine and sine of an angle, or the components of a rod's direction.
+    """What is unknown of a link: cosine and sine of an angle, the components of a rod's direction, or of a vector.
 
     Attributes:
-        kind: "circle" or "rod".
+        kind: "circle", "rod" or "stroke", a vector whose length is unknown too.
         name: by which its angle is called.
         unknowns: its symbols.
         links: whose orientation it says.
     """
 
-    kind: Literal["circle", "rod"]
+    kind: Literal["circle", "rod", "stroke"]
     name: str
     unknowns: tuple[sympy.Symbol, ...]
     links: tuple[str, ...]
@@ -48,7 +48,7 @@ class UnknownDirection:
     @property
     def freedoms(self) -> int:
         """How many linear equations determine it, but for a choice of two."""
-        return len(self.unknowns) - 1
+        return len(self.unknowns) - (self.kind != "stroke")
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +59,7 @@ class LoopEquations:
         forms: linear equations, each zero.
         directions: unknowns of links that turn, and of rods.
         lengths: index in the joint values -> symbol of a length that is sought.
+        strokes: such a length along a direction that turns -> the circle by which it turns. It is a coefficient.
         point: the platform's point as linear forms.
         directions: link -> vectors of it, as functions of the unknowns.
     """
@@ -67,6 +68,7 @@ class LoopEquations:
     directions: tuple[UnknownDirection, ...]
     lengths: Mapping[int, sympy.Symbol]
     point: tuple[Form, Form, Form]
+    strokes: Mapping[sympy.Symbol, UnknownDirection] = field(default_factory=dict)
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -79,6 +81,7 @@ class _Loops:
         self.symbols, self.record, self.placed = symbols, symbols.record, placed
         self.graph = joint_graph(self.record)
         self.lengths: dict[int, sympy.Symbol] = {}
+        self.strokes: dict[sympy.Symbol, UnknownDirection] = {}
         self.circles = {k: self._unknown_direction("circle", links) for k, links in self._numbered("circle").items()}
         self.rods = {k: self._unknown_direction("rod", links) for k, links in self._numbered("rod").items()}
 
@@ -101,10 +104,12 @@ class _Loops:
         directions = [
             direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
         ]
-        unknowns = [*self.lengths.values(), *(unknown for direction in directions for unknown in direction.unknowns)]
+        fixed = [length for length in self.lengths.values() if length not in self.strokes]
+        unknowns = [*fixed, *(unknown for direction in directions for unknown in direction.unknowns)]
         forms = (form_of(row, unknowns, self.symbols.witness) for row in rows)
         x, y, z = (form_of(part, unknowns, self.symbols.witness) for part in platform)
-        return LoopEquations(tuple(form for form in forms if form), tuple(directions), dict(self.lengths), (x, y, z))
+        forms = (form for form in forms if form)
+        return LoopEquations(tuple(forms), tuple(directions), dict(self.lengths), (x, y, z), dict(self.strokes))
 
     def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
         numbered: dict[int, list[str]] = {}
@@ -132,10 +137,13 @@ class _Loops:
     def _slid(self, joint: Joint) -> Vector:
         total: Vector = (0, 0, 0)
         for axis, index in self._sliding(joint):
-            length = self.symbols.locked.get(index)
+            along, length = self.carried(joint.parent, axis), self.symbols.locked.get(index)
             if length is None:
                 length = self.lengths.setdefault(index, sympy.Symbol(f"q_{joint.name.replace('.', '_')}", real=True))
-            total = add(total, scaled(self._direction(joint, axis), length))
+                circle = self._turning(joint, along)
+                if circle is not None:
+                    self.strokes[length] = circle
+            total = add(total, scaled(along, length))
         return total
 
     def _sliding(self, joint: Joint) -> Iterator[tuple[Vector, int]]:
@@ -144,15 +152,19 @@ class _Loops:
             if step.kind == "slide":
                 yield axes[step.direction], start + first
 
-    def _direction(self, joint: Joint, axis: Vector) -> Vector:
-        """The direction of a slider, which must be fixed."""
-        along = self.carried(joint.parent, axis)
-        unknowns = {
-            unknown for direction in (*self.circles.values(), *self.rods.values()) for unknown in direction.unknowns
-        }
-        if any(sympy.sympify(part).free_symbols & unknowns for part in along):
-            raise NotDerivedError(f"{joint.name} slides on a link that turns")
-        return along
+    def _turning(self, joint: Joint, along: Vector) -> UnknownDirection | None:
+        """The circle by which the direction of a slider turns, across its axis. Errors: NotDerivedError."""
+        used = {symbol for part in along for symbol in sympy.sympify(part).free_symbols}
+        turning = [own for own in (*self.circles.values(), *self.rods.values()) if used & {*own.unknowns}]
+        if not turning:
+            return None
+        (circle,) = turning
+        still = (sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along)
+        if circle.kind != "circle" or not all(map(self.symbols.witness.is_zero, still)):
+            raise NotDerivedError(f"{joint.name} slides on a link that turns, and not across the axis of its turns")
+        if circle in self.strokes.values():
+            raise NotDerivedError(f"{joint.name} slides on a link that turns, beside another slider")
+        return circle
 
     def carried(self, link: str, vector: Vector) -> Vector:
         """A vector fixed in a link, in the base."""

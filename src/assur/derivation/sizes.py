@@ -25,14 +25,15 @@ class Sizes:
 
     @cached_property
     def reference(self) -> tuple[str, float]:
-        """The largest length among the dimensions."""
+        """The largest length among the dimensions, as a formula and in size; of those that are positive, if any are."""
         record = self.solution.symbols.record
         lengths = {
-            name: abs(parameter.value) for name, parameter in record.parameters.items()
-            if parameter.unit == record.unit and parameter.sign == "positive" and not parameter.drawn_only
+            name: parameter for name, parameter in record.parameters.items()
+            if parameter.unit == record.unit and parameter.value and not parameter.drawn_only
         }  # fmt: skip
-        name = max(lengths, key=lambda own: lengths[own])
-        return name, lengths[name]
+        positive = [name for name, parameter in lengths.items() if parameter.sign == "positive"]
+        name = max(positive or lengths, key=lambda own: abs(lengths[own].value))
+        return name if positive else f"sqrt({name}*{name})", abs(lengths[name].value)
 
     @cached_property
     def lengths(self) -> set[sympy.Symbol]:

@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import product as choices_of
 
 import sympy
 
-from assur.derivation.elimination import Definition, Root, SolvedSet, solution
+from assur.derivation.angle_eliminant import AngleEliminant
+from assur.derivation.angle_residues import cycle_type, some_root
+from assur.derivation.cycle_types import CycleType, GroupFindings, findings
+from assur.derivation.definitions import Definition
+from assur.derivation.eliminants import eliminated
+from assur.derivation.elimination import Root, SolvedSet, solution
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, UnknownDirection, loop_equations
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets import next_set
+from assur.derivation.strokes import StrokeVector, stroke_vectors, with_strokes
 from assur.derivation.symbols import GivenSymbols
-from assur.derivation.witness import ModularWitness
+from assur.derivation.witness import ModularWitness, NoResidueRootError
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
+
+PRIMES = 60
+"""Modulo which a polynomial is factored; of the permutations of six roots a fifth has five in a cycle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +59,14 @@ class AnalyticSolution:
 
     @property
     def branches(self) -> int:
-        """How many branches there are."""
-        return int(2 ** len(self.roots))
+        """How many branches there are, over complex numbers."""
+        degree = self.eliminant.degree if self.eliminant else 1
+        return int(2 ** len(self.roots)) * degree
+
+    @property
+    def eliminant(self) -> AngleEliminant | None:
+        """The one polynomial, where there is one."""
+        return next((part.eliminant for part in self.sets if part.eliminant), None)
 
     @property
     def definitions(self) -> tuple[Definition, ...]:
@@ -57,18 +74,54 @@ class AnalyticSolution:
         return (*(own for part in self.sets for own in part.definitions), *self.lengths)
 
     def closes(self) -> bool:
-        """Whether every branch closes every loop, exactly, at values modulo a large prime."""
+        """Whether every branch closes every loop, exactly, at values modulo a large prime; of a polynomial a root."""
         return all(self._closes(signs) for signs in choices_of((1, -1), repeat=len(self.roots)))
 
     def _closes(self, signs: Sequence[int]) -> bool:
-        witness = ModularWitness(1)
-        for cosine, sine in self.symbols.circles:
-            witness.on_circle(cosine, sine)
-        turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=True)}
-        for own in self.definitions:
-            witness.define(own.symbol, turned.get(own.symbol, 1) * own.formula)
+        witness = self._replayed(1, self.sets, signs)
+        for own in self.lengths:
+            witness.define(own.symbol, own.formula)
         quadrics = (direction.quadric for direction in self.loops.directions)
         return all(map(witness.is_zero, (*map(value_of, self.loops.forms), *quadrics)))
+
+    def _replayed(self, seed: int, sets: Sequence[SolvedSet], signs: Sequence[int]) -> ModularWitness:
+        """A witness of its own, with everything that sets define."""
+        witness = ModularWitness(seed)
+        for cosine, sine in self.symbols.circles:
+            witness.on_circle(cosine, sine)
+        turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=False)}
+        for part in sets:
+            before = len(part.eliminant.known) if part.eliminant else 0
+            for own in part.definitions[:before]:
+                witness.define(own.symbol, own.formula)
+            if (eliminant := part.eliminant) is not None:
+                witness.drawn(eliminant.direction.unknowns, partial(some_root, eliminant, witness))
+            for own in part.definitions[before:]:
+                witness.define(own.symbol, turned.get(own.symbol, 1) * own.formula)
+        return witness
+
+    @cached_property
+    def group(self) -> GroupFindings | None:
+        """What is proved of the polynomial's roots, where its coefficients have no roots in them but of numbers."""
+        if self.eliminant is None or any(part.roots for part in self.sets[: self._place]):
+            return None
+        types: dict[CycleType, int] = {}
+        for seed in range(2, 2 + PRIMES):
+            witness = self._replayed(seed, self.sets[: self._place], ())
+            for own in self.eliminant.known:
+                witness.define(own.symbol, own.formula)
+            with contextlib.suppress(NoResidueRootError):
+                if (own_type := cycle_type(self.eliminant, witness)) is not None:
+                    types.setdefault(own_type, witness.field.p)
+            known = findings(self.eliminant.degree, types)
+            if known.insoluble:
+                break
+        return known
+
+    @property
+    def _place(self) -> int:
+        """Of the set with the polynomial."""
+        return next(k for k, part in enumerate(self.sets) if part.eliminant is not None)
 
 
 @lru_cache(maxsize=8)
@@ -86,9 +139,11 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     symbols = GivenSymbols(record, problem, witness)
     placed = orientations(symbols)
     loops = loop_equations(symbols, placed)
-    witness.home = home_numbers(symbols, placed, loops.directions)
-    lengths, forms = projected(sparse(loops.forms, witness), list(loops.lengths.values()), witness)
-    sets = _sets(sparse([divided(form) for form in forms], witness), loops.directions, witness, _names(record))
+    witness.home = home_numbers(symbols, placed, loops)
+    vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
+    fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
+    lengths, forms = projected(sparse(forms, witness), fixed, witness)
+    sets = _sets(sparse([divided(form) for form in forms], witness), loops.directions, vectors, witness, record)
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
@@ -97,17 +152,45 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
 
 
 def _sets(
-    forms: Sequence[Form], directions: Sequence[UnknownDirection], witness: ModularWitness, taken: set[str]
+    forms: Sequence[Form],
+    directions: Sequence[UnknownDirection],
+    vectors: Sequence[StrokeVector],
+    witness: ModularWitness,
+    record: MechanismRecord,
 ) -> tuple[SolvedSet, ...]:
-    left, sets = list(directions), list[SolvedSet]()
+    instead = {vector.circle: vector.direction for vector in vectors}
+    left, sets, taken = [instead.get(own, own) for own in directions], list[SolvedSet](), _names(record)
     while left:
         chosen, equations = next_set(forms, left, witness)
-        sets.append(solution(len(sets) + 1, chosen, equations, witness, taken))
+        number = len(sets) + 1
+        plain = _solved(number, chosen, equations, witness, taken, record.platform.link)
+        sets.append(with_strokes(plain, vectors, number, witness, taken))
         left = [direction for direction in left if direction not in chosen]
         unknowns = [unknown for direction in left for unknown in direction.unknowns]
         forms = [form_of(value_of(form), unknowns, witness) for form in forms]
         forms = [form for form in forms if form.keys() & {*unknowns}]
+    if sum(part.eliminant is not None for part in sets) > 1:
+        names = " and ".join(part.name for part in sets if part.eliminant)
+        raise NotDerivedError(f"a polynomial for each root of another: {names}")
     return tuple(sets)
+
+
+def _solved(
+    number: int,
+    chosen: Sequence[UnknownDirection],
+    equations: Sequence[Form],
+    witness: ModularWitness,
+    taken: set[str],
+    platform: str,
+) -> SolvedSet:
+    """A set by square roots, else by one polynomial."""
+    try:
+        return solution(number, chosen, equations, witness, taken)
+    except NotDerivedError as error:
+        try:
+            return eliminated(chosen, equations, witness, taken, platform)
+        except NotDerivedError as other:
+            raise NotDerivedError(f"{error}; {other}") from other
 
 
 def _names(record: MechanismRecord) -> set[str]:

@@ -6,7 +6,7 @@ drawn; what is derived of them has a value by its formula. Where a radicand has 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -40,7 +40,7 @@ class ModularWitness:
         self._random = np.random.default_rng(seed)
         self.field = PrimeField.drawn(self._random, LARGE)
         self._circles: list[tuple[sympy.Symbol, sympy.Symbol]] = []
-        self._definitions: list[tuple[sympy.Symbol, sympy.Expr]] = []
+        self._definitions: list[tuple[Sequence[sympy.Symbol], Callable[[], Sequence[Element]]]] = []
         self._values: dict[Any, Element] = {}
         self.home: dict[sympy.Symbol, float] = {}
         """What symbols are at home, where that is known."""
@@ -52,15 +52,24 @@ class ModularWitness:
 
     def define(self, symbol: sympy.Symbol, formula: sympy.Expr) -> None:
         """A symbol stands for a formula of symbols that have a value."""
-        self._definitions.append((symbol, formula))
+        self.drawn((symbol,), lambda: (self.value(formula),))
+
+    def drawn(self, symbols: Sequence[sympy.Symbol], values: Callable[[], Sequence[Element]]) -> None:
+        """What a function works out of values that are known. It may raise NoResidueRootError: all is drawn anew."""
+        self._definitions.append((symbols, values))
         try:
-            self._values[symbol] = self.value(formula)
+            self._values |= dict(zip(symbols, values(), strict=True))
         except NoResidueRootError:
-            self._draw_again()
+            self.draw_again()
 
     def is_zero(self, formula: Any) -> bool:
         """Whether a formula vanishes identically."""
         return self.value(sympy.sympify(formula)) == (0, 0)
+
+    def vanishes(self, a: Any, b: Any, c: Any, d: Any) -> bool:
+        """Whether a b - c d vanishes identically."""
+        first, second = (self._times(self.value(x), self.value(y)) for x, y in ((a, b), (c, d)))
+        return self._minus(first, second) == (0, 0)
 
     def value(self, formula: sympy.Expr) -> Element:
         """The value of a formula. Errors: NoResidueRootError."""
@@ -90,14 +99,15 @@ class ModularWitness:
             count += 1
         return count
 
-    def _draw_again(self) -> None:
+    def draw_again(self) -> None:
+        """Other values of everything. Errors: NoResidueRootError, where too few draws have all roots."""
         for _ in range(TRIES):
             self._values = {}
             for cosine, sine in self._circles:
                 self._draw_circle(cosine, sine)
             try:
-                for symbol, formula in self._definitions:
-                    self._values[symbol] = self.value(formula)
+                for symbols, values in self._definitions:
+                    self._values |= dict(zip(symbols, values(), strict=True))
             except NoResidueRootError:
                 continue
             return

@@ -51,7 +51,8 @@ class DerivedProblem:
     """The direct or the inverse problem.
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
-    modulo a prime that is drawn. `assumed` are the parallelograms that stay such; `lengths` are found after the sets.
+    modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
+    parallelograms that stay such; `lengths` are found after the sets.
     """
 
     problem: str
@@ -64,6 +65,7 @@ class DerivedProblem:
     sets: tuple[DerivedSet, ...]
     lengths: Mapping[str, str]
     results: Mapping[str, str]
+    proved: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,50 @@
+"""The eliminant of a coupled set: a polynomial in the tangent of half an angle, as a program of polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+
+from assur.derivation.definitions import Definition
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.trigonometric import homogeneous
+
+
+@dataclass(frozen=True)
+class AngleEliminant:
+    """One polynomial in the tangent of half an angle.
+
+    Attributes:
+        direction: the circle whose angle it is.
+        known: formulas before it, in which the angle does not occur.
+        entries: polynomials in its cosine and its sine.
+        steps: polynomials in the entries; the last is the eliminant, which vanishes.
+        spare: how often 1 + t^2 divides it, where cosine, sine and 1 are 1 - t^2, 2 t and 1 + t^2.
+        degree: in t, without these.
+    """
+
+    direction: UnknownDirection
+    known: tuple[Definition, ...]
+    entries: tuple[Definition, ...]
+    steps: tuple[Definition, ...]
+    spare: int = 0
+    degree: int = 0
+
+    def program(self, one: sympy.Expr) -> tuple[Definition, ...]:
+        """Entries and steps, as homogeneous polynomials in the cosine, the sine and what stands for 1."""
+        if one not in self._programs:
+            self._programs[one] = tuple(self._program(one))
+        return self._programs[one]
+
+    @cached_property
+    def _programs(self) -> dict[sympy.Expr, tuple[Definition, ...]]:
+        return {}
+
+    def _program(self, one: sympy.Expr) -> Iterator[Definition]:
+        degrees = dict.fromkeys(self.direction.unknowns, 1)
+        for own in (*self.entries, *self.steps):
+            formula, degrees[own.symbol] = homogeneous(own.formula, degrees, one)
+            yield Definition(own.symbol, formula, own.meaning)
