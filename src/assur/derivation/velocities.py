@@ -54,7 +54,8 @@ class _Velocities:
 
     def equations(self) -> VelocityEquations:
         driven = [*self._driven()]
-        forms = [self._rate(form) for form in self.solution.loops.forms]
+        loops = sparse(self.solution.loops.forms, self.witness, everywhere=True)
+        forms = [self._rate(form) for form in loops]
         values, rows = solved(forms, self.passive, self.witness)
         for direction in self.solution.loops.directions:
             if direction not in driven:
