@@ -29,6 +29,14 @@ def test_what_resists_is_named_with_exit_code_5_and_nothing_is_written(tmp_path,
     assert not target.exists()
 
 
+def test_a_polynomial_is_an_answer_and_says_what_roots_it_cannot_have(capsys):
+    assert main(["derive", "three_rrc", "--problem", "direct", "--json"]) == 0
+    (direct,) = json.loads(capsys.readouterr().out)["problems"]
+    assert (direct["status"], direct["branches"], direct["closes"]) == ("derived", 8, True)
+    assert "det != 0" in direct["sets"][0]["conditions"]
+    assert direct["proved"].startswith("the polynomial of degree 8 is irreducible")
+
+
 def test_the_file_that_is_written_makes_a_mechanism_of_one_s_own_exact(tmp_path, capsys):
     shutil.copy(load_record("fivebar").file, tmp_path / "mechanism.toml")
     assert main(["derive", str(tmp_path), "-o", str(tmp_path / "closed_form.py")]) == 0

@@ -29,8 +29,6 @@ ZERO = sympy.Integer(0)
 Matrix = list[list[sympy.Expr]]
 DRAWS = 12
 """At which a polynomial is looked at; of the permutations of six or eight roots a sixth or an eighth is one cycle."""
-SHORT = 3
-"""Operations of a product that needs no name."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +100,7 @@ def _named(
     known = dict[sympy.Expr, Definition]()
 
     def name(factor: sympy.Expr) -> sympy.Expr:
-        if not factor.is_Add and sympy.count_ops(factor) <= SHORT:
+        if not factor.has(sympy.Add):
             return factor
         short = sympy.factor_terms(factor)
         sign = -1 if -short in known else 1
@@ -222,7 +220,7 @@ def _eliminant(left: _Leftover, names: FreeNames) -> AngleEliminant:
     entries: dict[sympy.Expr, Definition] = {}
 
     def entry(formula: sympy.Expr) -> sympy.Expr:
-        if sympy.count_ops(formula) == 0:
+        if formula.is_number or formula.is_Symbol:
             return formula
         if formula not in entries:
             entries[formula] = Definition(names.numbered("f"), formula)
