@@ -53,6 +53,8 @@ NEEDS = {
     "site": (installed("sphinx") and installed("myst_parser"), "Sphinx: pip install '.[docs]'"),
     "browser": (chromium() and installed("playwright"), "Chromium: apt install chromium, and pip install playwright"),
     "node": (shutil.which("node"), "Node: apt install nodejs"),
+    "compiler": (shutil.which("gcc"), "a C compiler: apt install gcc"),
+    "latex": (shutil.which("pdflatex"), "pdflatex: apt install texlive-latex-recommended"),
     "sdf": (find_library("sdformat12"), "libsdformat 12: apt install libsdformat12-12"),
 }
 """Marker -> whether what its tests need is there, and what that is."""

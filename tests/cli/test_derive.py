@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import subprocess
 
 import pytest
 
@@ -110,3 +111,46 @@ def test_a_cosine_of_a_number_is_no_part_of_a_closed_form(assur_cli, tmp_path):
     answer = assur_cli("derive", str(file), "-o", str(tmp_path / "closed_form.py"))
     assert answer.code == 5
     assert "angle among the parameters" in answer.out + answer.err
+
+
+def test_the_document_is_written_also_of_a_problem_that_resists(tmp_path, assur_cli):
+    target = tmp_path / "d.tex"
+    ran = assur_cli("derive", "three_rps", "--latex", str(target), "--json")
+    assert (ran.code, ran.json["latex"]) == (5, str(target))
+    text = target.read_text(encoding="ascii")
+    assert "Not derived: platform" in text
+    assert r"\section{Direct problem: the pose at given inputs}" in text
+
+
+def test_a_document_that_is_no_tex_file_is_refused(assur_cli):
+    assert assur_cli("derive", "fivebar", "--latex", "d.pdf").code == 2
+
+
+@pytest.mark.compiler
+def test_the_c_of_a_derived_form_passes_its_own_test(tmp_path, assur_cli):
+    shutil.copy(load_record("fivebar").file, tmp_path / "own.toml")
+    target = tmp_path / "own.c"
+    ran = assur_cli("derive", str(tmp_path / "own.toml"), "--c", str(target), "--json")
+    assert (ran.code, ran.json["c"], ran.json["closed_form"]) == (0, str(target), None)
+    words = [
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-DFIVEBAR_TEST",
+        str(target),
+        "-o",
+        str(tmp_path / "own"),
+        "-lm",
+    ]
+    subprocess.run(["gcc", *words], check=True)
+    assert subprocess.run([tmp_path / "own"], check=True, capture_output=True, text=True).stdout == "fivebar: fine\n"
+
+
+def test_the_document_of_a_polynomial_says_its_degree_and_what_follows_of_a_root(tmp_path, assur_cli):
+    target = tmp_path / "d.tex"
+    assert assur_cli("derive", "planar_3rpr", "--latex", str(target)).code == 0
+    text = target.read_text(encoding="ascii")
+    parts = ("These belong together", r"a polynomial of degree 6", "At each of its roots", "over complex numbers")
+    places = [text.index(part) for part in parts]
+    assert places == sorted(places)

@@ -123,3 +123,12 @@ def test_step_without_its_extra_says_what_to_install(assur_cli, tmp_path, monkey
     assert run.code == 2
     assert "pip install '.[cad]'" in run.err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_c_is_the_closed_form_and_has_neither_masses_nor_parts(tmp_path, assur_cli):
+    target = tmp_path / "f.c"
+    run = assur_cli("export", "fivebar", "--format", "c", "-o", str(target), "--json")
+    assert (run.code, run.json["files"]) == (0, [str(target)])
+    assert run.json.keys() == {"mechanism", "format", "files"}
+    assert "int fivebar_direct(" in target.read_text(encoding="ascii")
+    assert assur_cli("export", "fivebar", "--format", "c", "--thickness", "3").code == 2

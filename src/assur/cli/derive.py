@@ -21,6 +21,14 @@ def derive(
         str | None,
         Parameter(name=("-o", "--output"), metavar="FILE", help="Write the closed form, a Python file that is read."),
     ] = None,
+    latex: Annotated[
+        str | None,
+        Parameter(name="--latex", metavar="FILE", help="Write the derivation as a LaTeX document, for pdflatex."),
+    ] = None,
+    c: Annotated[
+        str | None,
+        Parameter(name="--c", metavar="FILE", help="Write the closed form as C99, in one file."),
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Derive the analytic solution of a mechanism from its joint graph.
@@ -37,14 +45,16 @@ def derive(
     as closed_form.py it makes every command fast, and `assur check` holds it
     against the joint graph. Exit codes: 0, square roots or one polynomial, and
     whether it is proved that no square roots would do; 5, a set of links
-    resists, and is named.
+    resists, and is named. --latex writes what a paper prints: symbols, reasons,
+    set by set the equations and their solution, branches, an example.
 
     For example:
         assur derive zeng2019
         assur derive fivebar --problem direct
-        assur derive my.toml -o closed_form.py
+        assur derive zeng2019 --latex zeng2019.tex
+        assur derive my.toml -o closed_form.py --c my.c
     """
     record = shared.mechanism(mechanism)
     from assur.cli import derive_answer
 
-    return derive_answer.outcome(record, problem, output)
+    return derive_answer.outcome(record, problem, output, latex, c)

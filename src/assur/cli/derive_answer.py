@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from rich.console import RenderableType
@@ -16,7 +16,7 @@ from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.reasons import direction, sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
-from assur.errors import UsageError
+from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
 from assur.results.answers.answer import ABSENT
@@ -24,27 +24,64 @@ from assur.results.answers.derivation import DerivationAnswer, DerivedChoice, De
 from assur.results.files import write_whole
 
 
-def outcome(record: Mechanism, problem: str, output: str | None) -> Outcome:
+def outcome(
+    record: Mechanism, problem: str, output: str | None, latex: str | None = None, c: str | None = None
+) -> Outcome:
     """What was derived, as data and for a person; written where a file is named."""
+    document = None if latex is None else output_file(latex, (".tex",))
     path = None if output is None else output_file(output, (".py",))
-    if path is not None and problem != "both":
+    source = None if c is None else output_file(c, (".c",))
+    if (path is not None or source is not None) and problem != "both":
         raise UsageError("a closed form has both problems", hint="leave --problem out")
     asked: tuple[Problem, ...] = ("direct", "inverse") if problem == "both" else (problem,)  # type: ignore[assignment]
     parts = tuple(_derived(record, name) for name in asked)
     fine = all(part.status == "derived" for part in parts)
-    not_written = _not_written(record, path) if path is not None and fine else ""
+    not_written = _not_written(record, path, source) if fine and (path or source) else ""
+    if document is not None:
+        _write_document(document, record, parts)
     fine = fine and not not_written
-    data = DerivationAnswer(record.name, parts, str(path) if path is not None and fine else None, not_written or ABSENT)
+    data = DerivationAnswer(
+        record.name,
+        parts,
+        str(path) if path is not None and fine else None,
+        not_written or ABSENT,
+        ABSENT if document is None else str(document),
+        str(source) if source is not None and fine else ABSENT,
+    )
     return Outcome(data, lambda: _shown(data), exit_code=exit_codes.FINE if fine else exit_codes.UNDECIDED)
 
 
-def _not_written(record: Mechanism, path: Path) -> str:
-    """Write the closed form; why it cannot be written, where it cannot."""
+def _not_written(record: Mechanism, path: Path | None, source: Path | None) -> str:
+    """Write the closed form as a file that is read, and as C; why it cannot be written, where it cannot."""
+    from assur.export.c99 import c99_text
+    from assur.model.kernels.reading import names_of
+
     try:
-        write_whole(path, derive(record).closed_form())
+        text = derive(record).closed_form()
     except NotDerivedError as error:
         return str(error)
+    if path is not None:
+        write_whole(path, text)
+    if source is not None:
+        form = names_of(text, Path("closed_form.py"))["CLOSED_FORM"]
+        write_whole(source, c99_text(record.with_closed_form(form, text)))
     return ""
+
+
+def _write_document(path: Path, record: Mechanism, parts: Sequence[DerivedProblem]) -> None:
+    """What was derived, for print, with the theory's loops where it has them."""
+    from assur.derivation.document import document
+    from assur.derivation.printed_derivation import printed_derivation
+    from assur.derived_topology import topology
+
+    names: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
+    solved = {names[own.problem]: analytic_solution(record, names[own.problem]) for own in parts if not own.why}
+    why = {names[own.problem]: own.why for own in parts if own.why}
+    try:
+        loops = topology(record)
+    except AssurError:  # a mechanism may have formulas and no topology that the theory gives
+        loops = None
+    write_whole(path, document(printed_derivation(record, solved, why), loops))
 
 
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
@@ -110,6 +147,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         yield ""
     if data.not_written is not ABSENT:
         yield f"no closed form is written: {data.not_written}"
+    yield from (f"written: {name}" for name in (data.latex, data.c) if name is not ABSENT)
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from assur.results.answers.files import WrittenExport
 
 SIMULATED = ("mjcf", "sdf", "urdf")
+UNDRAWN = (*SIMULATED, "glb", "c")
+"""What has no bill of materials."""
 
 
 def export(
@@ -28,12 +30,12 @@ def export(
     /,
     *,
     format_: Annotated[
-        Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom"],
+        Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom", "c"],
         Parameter(
             name="--format",
             help="For simulators mjcf (MuJoCo, Newton, Drake, Pinocchio; if left out), sdf (Gazebo), urdf (a tree, with"
             " a file of loops beside it); for prototypes step (CAD; it needs the extra cad), stl (printers), glb"
-            " (moving), bom (parts and bearings).",
+            " (moving), bom (parts and bearings); for controllers c (the closed form in C99).",
         ),
     ] = "mjcf",
     output: Annotated[
@@ -52,7 +54,7 @@ def export(
     ] = False,
     shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
-    """Write a mechanism for a simulator, for CAD, for viewers or for printers.
+    """Write a mechanism for a simulator, for CAD, viewers, printers or controllers.
 
     Simulator files are in m and rad, standing at home. MJCF closes the loops by
     points that stay together and has a motor for each input: MuJoCo, Newton and
@@ -67,12 +69,16 @@ def export(
     STEP is an assembly of named solids in mm, STL one watertight file per link
     in mm; beside both a bill of materials. GLB moves once round and back.
 
+    C99 is the closed form in one file, for a controller: direct and inverse
+    problem with Jacobians, margins and factors, nothing allocated, -lm alone.
+
     For example:
         assur export fivebar -o fivebar.xml
         assur export fivebar --servos -o fivebar-servos.xml
         assur export zeng2019 --format urdf -o zeng.urdf
         assur export zeng2019 --format step --thickness 12 -o zeng.step
         assur export zeng2019 --format stl -o printed
+        assur export zeng2019 --format c -o zeng2019.c
     """
     record = shared.mechanism(mechanism)
     from assur.cli.progress import progress
@@ -83,6 +89,8 @@ def export(
 
     if servos and format_ != "mjcf":
         raise UsageError(f"--servos: {format_} has no actuators", hint="it is for mjcf")
+    if format_ == "c" and shared.thickness is not None:
+        raise UsageError("--thickness: formulas have none", hint="it is for step, stl, glb and bom")
     if format_ in SIMULATED and shared.thickness is not None:
         raise UsageError(
             f"--thickness: {format_} has balls and arms of its own sizes", hint="it is for step, stl, glb and bom"
@@ -90,13 +98,13 @@ def export(
     path = _path(record, format_, output)
     with progress("export", shared):
         written = [str(item) for item in export(record, format_, path, servos=servos)]
-        rows = () if format_ in (*SIMULATED, "glb") else bill(record)
+        rows = () if format_ in UNDRAWN else bill(record)
     answer = WrittenExport(record.name, format_, tuple(written))
     if format_ in SIMULATED:
         from assur.export.bodies import MASS
 
         answer = replace(answer, nominal_mass_kg=MASS)
-    else:
+    elif format_ != "c":
         from assur.scene.sizes import thickness
 
         answer = replace(answer, bill=rows or ABSENT, thickness=thickness(record))

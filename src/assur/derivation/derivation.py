@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_text import ClosedFormText
 from assur.derivation.mode_signs import matched_signs
+from assur.derivation.printed_derivation import PrintedDerivation, printed_derivation
 from assur.derivation.rank_losses import rank_losses
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.model.mechanism import MechanismRecord
@@ -25,6 +26,10 @@ class Derivation:
         signs = matched_signs(self.direct, self.inverse)
         plain = ClosedFormText(ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors))
         return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
+
+    def printed(self) -> PrintedDerivation:
+        """Both problems for print."""
+        return printed_derivation(self.record, {"direct": self.direct, "inverse": self.inverse}, {})
 
 
 def derive(record: MechanismRecord) -> Derivation:

@@ -242,7 +242,9 @@ class _Reading:
         """The direction of a rod across its hinge, where psi and phi are zero; along the hinge it may reach too."""
         joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
         start, *points = (point_on(self.symbols, joint, link) for joint in joints)
-        side = next(vector for vector in (subtract(point, start) for point in points) if any(vector))
+        side = next((vector for vector in (subtract(point, start) for point in points) if any(vector)), None)
+        if side is None:
+            raise NotDerivedError(f"{link}: all its joints have one point, so it has no direction")
         along = apply(constant, side)
         across = self.exact.tidied(subtract(along, scaled(hinge, dot(along, hinge))))
         if not any(across):

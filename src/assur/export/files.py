@@ -14,7 +14,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
 
-Format = Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom"]
+Format = Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom", "c"]
 ENDINGS: dict[Format, tuple[str, ...]] = {
     "mjcf": (".xml", ".mjcf"),
     "sdf": (".sdf",),
@@ -23,6 +23,7 @@ ENDINGS: dict[Format, tuple[str, ...]] = {
     "glb": (".glb",),
     "stl": (),
     "bom": (".csv",),
+    "c": (".c",),
 }
 """Endings of the file; none where a folder is written."""
 
@@ -39,6 +40,10 @@ def export(record: MechanismRecord, form: Format, path: Path, *, servos: bool = 
         return (write_whole(path, mjcf(record, servos=servos)),)
     if form == "sdf":
         return (write_whole(path, sdf(record)),)
+    if form == "c":
+        from assur.export.c99 import c99_text
+
+        return (write_whole(path, c99_text(record)),)
     if form in ("step", "glb", "stl", "bom"):
         return _prototype(record, form, path)
     text, loops = urdf(record), json_text(sidecar(record, path.name)) + "\n"

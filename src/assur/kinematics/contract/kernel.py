@@ -27,6 +27,8 @@ from assur.numerics.expanded import Expanded
 from assur.numerics.recording.tape import Operation, Recorded, Recorder, Tape, pruned
 
 FloatArray = NDArray[np.float64]
+PLACED = frozenset({"jp", "jq", "pose", "input"})
+"""Outputs whose plain numbers are entries too, as each stands in its place; of others only what is recorded counts."""
 Question = Literal["inverse", "direct", "self_motion"]
 
 
@@ -269,7 +271,10 @@ class _Writer:
                 self._put("quantity", name, value)
 
     def _put(self, kind: str, name: str, value: Any) -> None:
-        self.values.setdefault(kind, {})[name] = [part for part in _flat(value) if isinstance(part, Recorded)]
+        parts = _flat(value)
+        if kind in PLACED:
+            parts = [part if isinstance(part, Recorded) else self.ns.number(part) for part in parts]
+        self.values.setdefault(kind, {})[name] = [part for part in parts if isinstance(part, Recorded)]
 
     def _number(self, name: str, angle: bool = False) -> Any:
         self.given.append((name, angle))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
-from assur.numerics.recording.registers import assignments
+from assur.numerics.recording.statements import statements
 from assur.numerics.recording.tape import Tape
 
 _TEXT = {
@@ -39,7 +39,7 @@ def javascript(
     >>> javascript(recorder.tape({"y": x * x + 2}), ["given[0]"], [], {"y": ["answer[0]", "answer[4]"]})
     ['let v0,v1;', 'v0=given[0];', 'v0=v0*v0;', 'v1=2.0;', 'answer[0]=answer[4]=v0+v1;']
     """
-    texts = list(_statements(tape, {"varying": varying, "uniform": uniform}, targets))
+    texts = list(statements(tape, {"varying": varying, "uniform": uniform}, targets, _TEXT, number_text))
     names = sorted({register for register, _ in texts if register is not None})
     return [f"let {','.join(f'v{k}' for k in names)};", *(text for _, text in texts)] if names else []
 
@@ -51,23 +51,3 @@ def number_text(number: float) -> str:
     ('0.1', '-Infinity')
     """
     return repr(float(number)).replace("inf", "Infinity").replace("nan", "NaN")
-
-
-def _statements(
-    tape: Tape, given: Mapping[str, Sequence[str]], targets: Mapping[str, Sequence[str]]
-) -> Iterator[tuple[int | None, str]]:
-    """Each statement, and the register that it changes; the last use of a number needs none."""
-    goals: dict[int, list[str]] = {}
-    for name, entry in tape.outputs.items():
-        goals.setdefault(entry, []).extend(targets[name])
-    taken = {argument for item in tape.operations for argument in item.arguments}
-    for item in assignments(tape):
-        name = item.operation.name
-        if name in given:
-            value = given[name][item.given]
-        elif name == "number":
-            value = number_text(item.operation.number)
-        else:
-            value = _TEXT[name].format(*(f"v{k}" for k in item.arguments))
-        own = [f"v{item.register}"] if item.entry in taken else []
-        yield item.register if own else None, f"{'='.join([*goals.get(item.entry, []), *own, value])};"

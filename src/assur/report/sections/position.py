@@ -18,6 +18,7 @@ from assur.report.formulas.mathml import equation, inline, letter_mathml, named_
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import FormulaLine
 from assur.report.formulas.symbols import GREEK
+from assur.report.sections.analytic import analytic_solutions
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
 from assur.report.sections.proved import proof_words
@@ -45,6 +46,7 @@ def position(findings: Findings) -> Section:
     parts += [_direct(findings), _inverse(findings)]
     if form is not None and form.self_motion is not None:
         parts.append(_self_motion(findings, form.self_motion))
+    parts += analytic_solutions(findings.record)
     parts.append(Section("Completeness", completeness(findings)))
     return Section("Position", READ if form else SEARCHED, parts)
 

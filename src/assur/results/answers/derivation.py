@@ -70,9 +70,11 @@ class DerivedProblem:
 
 @dataclass(frozen=True)
 class DerivationAnswer(Answer):
-    """What was derived of a mechanism, problem by problem, and the file that was written, or why none was."""
+    """What was derived of a mechanism, problem by problem, and the files that were written, or why none was."""
 
     mechanism: str
     problems: tuple[DerivedProblem, ...]
     closed_form: str | None
     not_written: str | Absent = ABSENT
+    latex: str | Absent = ABSENT
+    c: str | Absent = ABSENT

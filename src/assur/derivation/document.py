@@ -1,0 +1,171 @@
+r"""A derivation as a LaTeX document, in two columns as journals have them; it needs amsmath and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
+from assur.derivation.printed_letters import joint_letter, listed, plain
+from assur.derivation.written_solution import Block, WrittenFormula
+from assur.results.plain_text import signed
+from assur.topology.facts import Topology
+
+HEAD = r"""\documentclass[10pt,a4paper,twocolumn]{article}
+\usepackage{amsmath,amssymb}
+\setlength{\textwidth}{176mm}\setlength{\oddsidemargin}{-8.4mm}\setlength{\columnsep}{7mm}
+\setlength{\textheight}{240mm}\setlength{\topmargin}{-14mm}
+\allowdisplaybreaks
+\sloppy
+"""
+TITLES = {"direct": "Direct problem: the pose at given inputs", "inverse": "Inverse problem: the inputs at a pose"}
+CLOSE = {
+    True: "each closes every loop, held against them modulo a prime of 160 bits, and no other exists where the "
+    "conditions hold, since every step is an equivalence",
+    False: "NOT ALL of them close every loop",
+}
+ROWS = 16
+"""Branches in a table."""
+
+
+def document(derivation: PrintedDerivation, topology: Topology | None = None) -> str:
+    """The whole document; the theory's loops and degrees where a topology is given.
+
+    >>> from assur.derivation.derivation import derive
+    >>> from assur.model.registry import load_record
+    >>> text = document(derive(load_record("fivebar")).printed())
+    >>> text.count("begin{document}"), "KaTeX" in text
+    (1, False)
+    """
+    return "\n".join([HEAD, *_lines(derivation, topology)]) + "\n"
+
+
+def _lines(derivation: PrintedDerivation, topology: Topology | None) -> Iterator[str]:
+    record = derivation.record
+    yield rf"\title{{{plain(record.title or record.name)}: analytic position solution}}"
+    yield r"\author{}\date{}"
+    yield r"\begin{document}"
+    yield r"\maketitle"
+    yield r"\section*{Nomenclature}"
+    yield from _nomenclature(derivation)
+    if record.generalised:
+        names = listed([f"${joint_letter(name)}$" for name in record.generalised])
+        yield "Assumed: " + (
+            f"the parallelogram {names} stays one." if len(record.generalised) == 1
+            else f"the parallelograms {names} stay such."
+        )  # fmt: skip
+    if topology is not None and topology.loops:
+        yield r"\section{Loops}"
+        yield from _topology(topology, {joint.alias: joint.name for joint in record.joints.values() if joint.alias})
+    before: tuple[str, ...] = ()
+    for own in derivation.problems:
+        yield rf"\section{{{TITLES[own.problem]}}}"
+        reasons = own.written.reasons()
+        yield from _orientations(reasons, before)
+        before = reasons
+        yield from _problem(own)
+    for problem, why in derivation.why.items():
+        yield rf"\section{{{TITLES[problem]}}}"
+        yield f"Not derived: {plain(why)}."
+    yield r"\end{document}"
+
+
+def _nomenclature(derivation: PrintedDerivation) -> Iterator[str]:
+    rows = {own.latex: own for part in derivation.problems for own in part.written.printed.nomenclature}
+    if not rows:
+        return
+    yield r"\begin{description}\setlength{\itemsep}{0pt}\setlength{\parskip}{0pt}"
+    for own in rows.values():
+        meaning = own.meaning if "$" in own.meaning else plain(own.meaning)
+        yield rf"\item[${own.latex}$] {meaning}{f' ({plain(own.unit)})' if own.unit else ''}"
+    yield r"\end{description}"
+
+
+def _topology(topology: Topology, aliases: Mapping[str, str]) -> Iterator[str]:
+    """The loops as single open chains, with constraint degrees, and the coupling degree."""
+    for number, loop in enumerate(topology.loops, start=1):
+        joints = ", ".join(f"${joint_letter(aliases.get(name, name))}$" for name in loop.joints)
+        yield (
+            rf"\noindent SOC$_{{{number}}}$: {joints}; $\xi_{{L_{{{number}}}}} = {loop.xi}$, "
+            rf"$\Delta_{{{number}}} = {signed(loop.delta)}$.\par"
+        )
+    if topology.coupling_degree is not None:
+        yield rf"\noindent Coupling degree $\kappa = {topology.coupling_degree}$.\par"
+
+
+def _orientations(reasons: tuple[str, ...], before: tuple[str, ...]) -> Iterator[str]:
+    """Why links do not turn, numbered; those of the problem before are not said again."""
+    if reasons and reasons == before:
+        yield "The same links do not turn. "
+    elif reasons:
+        yield "Orientations, before any equation:"
+        yield r"\begin{enumerate}"
+        yield from (rf"\item {text}" for text in reasons)
+        yield r"\end{enumerate}"
+
+
+def _problem(own: PrintedProblem) -> Iterator[str]:
+    yield "Order of solution, what is known before and what follows:"
+    yield aligned(own.written.order(), numbered=False)
+    for part in own.written.parts():
+        yield rf"\subsection{{{plain(part.title)}}}"
+        yield from map(_block, part.blocks)
+    yield r"\subsection{Branches, and an example}"
+    yield from _example(own)
+
+
+def _block(block: Block) -> str:
+    return block if isinstance(block, str) else aligned(block)
+
+
+def aligned(formulas: tuple[WrittenFormula, ...], numbered: bool = True) -> str:
+    r"""Formulas one under another, each with a number unless none are wanted.
+
+    >>> print(aligned((WrittenFormula("B_{1}", ("l_{3} - y_{1}", "+ y_{2}")),)))
+    \begin{align}
+      B_{1} &= l_{3} - y_{1} \notag \\
+      &\quad + y_{2}
+    \end{align}
+    """
+    lines = []
+    for own in formulas:
+        first, *others = own.rows
+        lines.append(" \\notag \\\\\n  &\\quad ".join([f"{own.left} &{own.relation} {first}", *others]))
+    body = " \\\\\n  ".join(lines)
+    kind = "align" if numbered else "align*"
+    return f"\\begin{{{kind}}}\n  {body}\n\\end{{{kind}}}"
+
+
+def _example(own: PrintedProblem) -> Iterator[str]:
+    example, solution = own.example, own.written.solution
+    held = CLOSE[own.closes]
+    yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}."
+    if not example.branches:
+        yield "They are counted over complex numbers; how many are real depends on what is given."
+        return
+    given = ", ".join(f"${value.latex} = {value.number}$ {plain(value.unit)}" for value in example.given)
+    real = [branch for branch in example.branches if branch.values]
+    yield f"At {given} {len(real)} of {len(example.branches)} {'is' if len(real) == 1 else 'are'} real:"
+    yield from _table(own, example)
+
+
+def _table(own: PrintedProblem, example: PrintedExample) -> Iterator[str]:
+    shown = [branch for branch in example.branches if branch.values][:ROWS] or list(example.branches[:ROWS])
+    if len(example.branches) <= ROWS:
+        shown = list(example.branches)
+    heads = next((branch.values for branch in shown if branch.values), ())
+    yield r"\begin{center}\small"
+    yield rf"\begin{{tabular}}{{c{'r' * max(len(heads), 1)}}}\hline"
+    signs = ", ".join(own.written.printed.signs[root.symbol][0] for _, root in sorted(
+        zip(own.order, own.written.solution.roots, strict=True), key=lambda pair: pair[0]))  # fmt: skip
+    yield " & ".join([f"${signs}$", *(f"${value.latex}$ ({plain(value.unit)})" for value in heads)]) + r" \\ \hline"
+    for branch in shown:
+        mode = branch.mode.replace("-", "{-}").replace("+", "{+}")
+        if branch.values:
+            yield " & ".join([f"${mode}$", *(f"${value.number}$" for value in branch.values)]) + r" \\"
+        else:
+            yield rf"${mode}$ & \multicolumn{{{max(len(heads), 1)}}}{{c}}{{not real: ${branch.negative} < 0$}} \\"
+    yield r"\hline\end{tabular}"
+    yield r"\end{center}"
+    left = sum(bool(branch.values) for branch in example.branches) - sum(bool(branch.values) for branch in shown)
+    if left > 0:
+        yield f"and {left} more."

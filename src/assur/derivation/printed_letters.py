@@ -1,0 +1,347 @@
+"""The letters of a derivation: the file's where it has some, else by role, with what each means."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+
+from assur.derivation.formula_latex import FormulaLatex, PrintedLetter
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.reasons import direction as direction_text
+from assur.derivation.solution import AnalyticSolution
+from assur.derivation.symbols import circle_of
+from assur.kinematics.home import home_values
+from assur.model.mechanism import Coordinate, Input
+from assur.model.pose import ANGLES
+from assur.topology.latex import name as joint_latex
+
+GREEK = frozenset(
+    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi", "rho"}
+    | {"sigma", "tau", "phi", "chi", "psi", "omega"}
+)
+TURNS = (r"\theta", r"\varphi", r"\psi", r"\chi", r"\omega", r"\eta", r"\zeta")
+"""Letters for angles of which the file names none: one for each kind of link, its number as index."""
+RODS = ("d", "f", "g", "n", "m", "p")
+"""The same for directions of rods."""
+ROOTS = ("g", "k", "p", "q", "f")
+"""And for roots of sums of dimensions."""
+SHIFTED = {"^": r"\wedge", "~": r"\sim"}
+"""Characters that words have and text in LaTeX does not."""
+SAME = 1e-9
+"""Angles at home that are one, to rounding."""
+
+_SPECIAL = re.compile(r"([&%$#_{}])")
+_NUMBERED = re.compile(r"(\D*?)_?(\d+)_?([A-Za-z_]*)(\d*)")
+
+
+@dataclass(frozen=True)
+class Nomenclature:
+    """A line of a list of symbols: the letter in LaTeX, its meaning in words, its unit."""
+
+    latex: str
+    meaning: str
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedLetters:
+    """How the symbols of a solution are printed.
+
+    Attributes:
+        solution: whose symbols they are.
+        signs: root -> letter of its sign in LaTeX, and whether the root has that sign or its opposite.
+    """
+
+    solution: AnalyticSolution
+    signs: Mapping[sympy.Symbol, tuple[str, int]]
+
+    @cached_property
+    def letters(self) -> dict[sympy.Symbol, PrintedLetter]:
+        """Symbol -> its letter."""
+        own = {symbol: PrintedLetter(letter(name), rank=1) for name, symbol in self.solution.symbols.parameters.items()}
+        record = self.solution.symbols.record
+        for driven in record.inputs:
+            own |= _of_angle(driven.name, input_letter(driven))
+            own[sympy.Symbol(driven.name, real=True)] = PrintedLetter(input_letter(driven))
+        for coordinate in record.platform.pose:
+            own |= _of_angle(coordinate, letter(coordinate))
+            own[sympy.Symbol(coordinate, real=True)] = PrintedLetter(letter(coordinate))
+        for symbol in self.solution.loops.lengths.values():
+            own[symbol] = PrintedLetter(f"s_{{{joint_letter(symbol.name.removeprefix('q_').replace('_', '.'))}}}")
+        for unknown in self.solution.loops.directions:
+            own |= self._of_direction(unknown)
+        own |= {root: PrintedLetter(root.name, rank=1) for root in self.radicals.values()}
+        for definition in self.solution.definitions:
+            own.setdefault(definition.symbol, PrintedLetter(_defined(definition.symbol.name)))
+        for root in self.solution.roots:
+            sign, sense = self.signs[root.symbol]
+            radicand = own[root.radicand].latex
+            own[root.symbol] = PrintedLetter(rf"{sign}\sqrt{{{radicand}}}", sense=sense, rank=3)
+        return own
+
+    @cached_property
+    def radicals(self) -> dict[sympy.Expr, sympy.Symbol]:
+        """Sum of dimensions under a root -> the letter by which the root is called."""
+        dimensions = {*self.solution.symbols.parameters.values()}
+        roots = {
+            power.base
+            for formula in self._formulas
+            for power in formula.atoms(sympy.Pow)
+            if power.base.is_Add and power.exp.is_Rational and power.exp.q == 2
+            and power.base.free_symbols and power.base.free_symbols <= dimensions
+        }  # fmt: skip
+        free = (own for own in ROOTS if own not in self._taken)
+        return {
+            radicand: sympy.Symbol(own, positive=True)
+            for own, radicand in zip(free, sorted(roots, key=str), strict=False)
+        }
+
+    @cached_property
+    def nomenclature(self) -> tuple[Nomenclature, ...]:
+        """Dimensions, what is given and what is sought, in the file's words."""
+        return tuple(self._nomenclature())
+
+    def angle(self, unknown: UnknownDirection) -> str:
+        """What is unknown of a link, as one letter: its angle, or the components of a direction."""
+        first = self.letters[unknown.unknowns[0]]
+        if first.function:
+            return first.latex
+        return self.vector(unknown.unknowns)
+
+    def vector(self, parts: Sequence[sympy.Expr]) -> str:
+        """A vector in bold, by the letters of its parts; a row of these where they have no letter in common."""
+        texts = [self.letters[part].latex if part in self.letters else sympy.latex(part) for part in parts]
+        if all(text.endswith(f"{axis}}}") for text, axis in zip(texts, "xyz", strict=True)):
+            stem, _, index = texts[0].partition("_")
+            return rf"\mathbf{{{stem}}}_{{{index.strip('{}')[:-1]}}}".removesuffix("_{}")
+        return f"({', '.join(texts)})"
+
+    def _nomenclature(self) -> Iterator[Nomenclature]:
+        record = self.solution.symbols.record
+        used = self._used
+        for name, parameter in record.parameters.items():
+            symbol = self.solution.symbols.parameters[name]
+            if symbol in used:
+                unit = "" if parameter.unit == "1" else parameter.unit
+                yield Nomenclature(self.letters[symbol].latex, parameter.meaning, unit)
+        for driven in record.inputs:
+            unit = record.angle if driven.coordinate.kind == "angle" else record.unit
+            yield Nomenclature(input_letter(driven), f"input, ${joint_letter(driven.coordinate.joint)}$", unit)
+        plain_writer = FormulaLatex(self.letters)
+        for radicand, root in self.radicals.items():
+            yield Nomenclature(rf"{root.name} = {plain_writer.text(sympy.sqrt(radicand))}", "for short", "")
+        posed = ", ".join(letter(name) for name in record.platform.pose)
+        units = dict.fromkeys(record.angle if name in ANGLES else record.unit for name in record.platform.pose)
+        yield Nomenclature(posed, f"pose of {words(record.platform.link)}", ", ".join(units))
+        for unknown in self.solution.loops.directions:
+            links = listed(list(dict.fromkeys(words(link) for link in unknown.links if "'" not in link)))
+            own = self.solution.placed.links[unknown.links[0]]
+            axis = f"${direction_text(own.axis)}$" if own.axis and len(direction_text(own.axis)) == 1 else "its axis"
+            if unknown.kind == "rod":
+                parts = ", ".join(self.letters[symbol].latex for symbol in unknown.unknowns)
+                yield Nomenclature(f"{self.angle(unknown)} = ({parts})", f"direction of {links}, a unit vector", "")
+            elif own.axis is not None and self._named(unknown) is None:
+                yield Nomenclature(self.angle(unknown), f"angle of {links} about {axis}", "rad")
+            elif self._named(unknown) is not None and self.angle(unknown) not in self._given:
+                yield Nomenclature(self.angle(unknown), f"angle of {links}", record.angle)
+
+    @cached_property
+    def _given(self) -> set[str]:
+        record = self.solution.symbols.record
+        return {input_letter(driven) for driven in record.inputs} | {letter(name) for name in record.platform.pose}
+
+    @cached_property
+    def _formulas(self) -> list[sympy.Expr]:
+        formulas = [own.formula for own in self.solution.definitions]
+        formulas += [
+            part for own in self.solution.sets for form in (*own.equations, *own.lines) for part in form.values()
+        ]
+        return [sympy.sympify(formula) for formula in (*formulas, *self.solution.point)]
+
+    @property
+    def _used(self) -> set[sympy.Symbol]:
+        return {symbol for formula in self._formulas for symbol in formula.free_symbols}
+
+    def _of_direction(self, unknown: UnknownDirection) -> dict[sympy.Symbol, PrintedLetter]:
+        if unknown.kind == "rod":
+            stem = self._letter(unknown, RODS)
+            base, _, index = stem.partition("_")
+            inside = index.strip("{}")
+            return {
+                symbol: PrintedLetter(f"{base}_{{{inside}{axis}}}", rank=5)
+                for symbol, axis in zip(unknown.unknowns, "xyz", strict=True)
+            }
+        named = self._named(unknown)
+        latex, sense = named or (self._letter(unknown, TURNS), 1)
+        cosine, sine = unknown.unknowns
+        return {cosine: PrintedLetter(latex, "cos", rank=5), sine: PrintedLetter(latex, "sin", sense, rank=5)}
+
+    def _named(self, unknown: UnknownDirection) -> tuple[str, int] | None:
+        """The file's letter of the angle by which a link turns against what does not turn, and its sense."""
+        record, placed = self.solution.symbols.record, self.solution.placed.links
+        if record.platform.link in unknown.links and "phi" in record.platform.pose:
+            return letter("phi"), 1
+        names = [(input_letter(driven), driven.coordinate) for driven in record.inputs if not driven.offset]
+        names += [(letter(name), coordinate) for name, coordinate in record.angles.items()]
+        for latex, coordinate in names:
+            joint = record.joints[coordinate.joint]
+            before = placed[joint.parent]
+            if joint.child in unknown.links and before.axis is None and before.rod is None and joint.type.turns == 1:
+                sense = self._sense(unknown, coordinate)
+                if sense:
+                    return latex, sense
+        return None
+
+    def _sense(self, unknown: UnknownDirection, coordinate: Coordinate) -> int:
+        """Whether a joint's angle is that of an unknown, or its opposite: as they are at home, and by their axes."""
+        record, symbols = self.solution.symbols.record, self.solution.symbols
+        axis = self.solution.placed.links[record.joints[coordinate.joint].child].axis
+        own = symbols.geometry.joints[coordinate.joint].axes[0]
+        home = symbols.witness.home
+        cosine, sine = (home[symbol] for symbol in unknown.unknowns)
+        value = float(home_values(record)[coordinate.index])
+        for sense in (1, -1):
+            along = axis is not None and all(
+                symbols.witness.is_zero(sympy.sympify(first) - sense * second)
+                for first, second in zip(axis, own, strict=True)
+            )
+            if along and math.hypot(cosine - math.cos(value), sine - sense * math.sin(value)) < SAME:
+                return sense
+        return 0
+
+    def _letter(self, unknown: UnknownDirection, letters: tuple[str, ...]) -> str:
+        """A letter for the kind of link, with its number as index."""
+        kinds = list(dict.fromkeys(_kind(other.name)[0] for other in self._unnamed(unknown.kind)))
+        kind, number = _kind(unknown.name)
+        same = [other.name for other in self._unnamed(unknown.kind) if _kind(other.name) == (kind, number)]
+        free = [own for own in letters if own not in self._taken]
+        place = kinds.index(kind)
+        if place >= len(free) or len(same) > 1:
+            return rf"{free[0]}_{{\mathrm{{{unknown.name.replace('_', ' ')}}}}}"
+        return f"{free[place]}_{{{number}}}" if number else free[place]
+
+    def _unnamed(self, kind: str) -> list[UnknownDirection]:
+        return [
+            own
+            for own in self.solution.loops.directions
+            if own.kind == kind and (kind == "rod" or self._named(own) is None)
+        ]
+
+    @cached_property
+    def _taken(self) -> set[str]:
+        """Letters of the file, without index."""
+        record = self.solution.symbols.record
+        names = [letter(name) for name in (*record.parameters, *record.angles, *record.platform.pose)]
+        return {name.partition("_")[0] for name in (*names, *(input_letter(driven) for driven in record.inputs))}
+
+
+def input_letter(driven: Input) -> str:
+    """The file's LaTeX of an input, else its name as a letter."""
+    return driven.latex if driven.latex != driven.name else letter(driven.name)
+
+
+def joint_letter(name: str) -> str:
+    r"""A joint's name as a letter; of a repeated limb's the limb's number comes first.
+
+    >>> joint_letter("B3a"), joint_letter("leg1.A"), joint_letter("leg2.B1"), joint_letter("leg1.Pa")
+    ('B_{3a}', 'A_{1}', 'B_{2,1}', '\\mathrm{Pa}_{1}')
+    """
+    limb = re.fullmatch(r"[A-Za-z_]+(\d+)\.([A-Za-z]+)(\w*)", name)
+    if not limb:
+        return joint_latex(name)
+    number, part, further = limb.groups()
+    return joint_latex(part) + f"_{{{number}{',' + further if further else ''}}}"
+
+
+def letter(name: str) -> str:
+    r"""A name of a file as a letter with an index.
+
+    >>> letter("l2"), letter("wB"), letter("betaC"), letter("alpha"), letter("rise"), letter("theta_1")
+    ('l_{2}', 'w_{B}', '\\beta_{C}', '\\alpha', '\\mathrm{rise}', '\\theta_{1}')
+    """
+    match = re.fullmatch(r"([A-Za-z]+?)_?(\d+\w?)", name) or re.fullmatch(r"([a-z]+)_?([A-Z]\d*)", name)
+    stem, index = match.groups() if match else (name, "")
+    plain = f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else rf"\mathrm{{{stem.replace('_', ' ')}}}"
+    return f"{plain}_{{{index}}}" if index else plain
+
+
+def _of_angle(name: str, latex: str) -> dict[sympy.Symbol, PrintedLetter]:
+    cosine, sine = circle_of(name)
+    return {cosine: PrintedLetter(latex, "cos", rank=5), sine: PrintedLetter(latex, "sin", rank=5)}
+
+
+def _defined(name: str) -> str:
+    """A name that the derivation gives: a letter, an axis, the number of its set."""
+    plain = name.rstrip("_")
+    match = re.fullmatch(r"([A-Za-z])([xyz]?)(\d*)", plain)
+    if match is None:
+        return rf"\mathrm{{{plain}}}"
+    stem, axis, number = match.groups()
+    stem = rf"\bar{{{stem}}}" if plain != name else stem  # another quantity has the name without
+    return f"{stem}_{{{number}{axis}}}"
+
+
+def _kind(name: str) -> tuple[str, str]:
+    """What a link is, and its number: of a repeated limb the limb's."""
+    match = _NUMBERED.fullmatch(name)
+    if match is None:
+        return name, ""
+    before, number, after, further = match.groups()
+    return f"{before} {after if len(after) > 1 else ''}{further}", number
+
+
+def words(link: str) -> str:
+    """A link's name in words, with its number apart.
+
+    >>> words("leg1.arm"), words("link4a")
+    ('arm of limb 1', 'link 4a')
+    """
+    limb = re.fullmatch(r"[A-Za-z]+(\d+)\.([A-Za-z]+)(\d*)", link)
+    if limb:
+        number, part, further = limb.groups()
+        return f"{part}{' ' + further if further else ''} of limb {number}"
+    plain = re.fullmatch(r"([A-Za-z]+)(\d+)(\w?)", link)
+    return f"{plain[1]} {plain[2]}{plain[3]}" if plain and len(plain[1]) > 1 else link
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names one after another.
+
+    >>> listed(["A", "B", "C"])
+    'A, B and C'
+    """
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def plain(text: str) -> str:
+    r"""Words of a file in LaTeX.
+
+    >>> plain("height of B_i, 50 %")
+    'height of B\\_i, 50 \\%'
+    """
+    escaped = _SPECIAL.sub(r"\\\1", text.replace("\\", "/"))
+    escaped = re.sub(r"[<>|^~]", lambda match: f"${SHIFTED.get(match[0], match[0])}$", escaped)
+    return escaped.encode("ascii", "replace").decode("ascii")
+
+
+def sign_formula(text: str, angles: Mapping[str, str]) -> str:
+    r"""What a file says of a sign, as mathematics: coordinates of points, and angles of joints by their letters.
+
+    >>> sign_formula("C1.z - B1.z > 0", {}), sign_formula("sin(D3a - D1) > 0", {"D3a": r"\beta", "D1": r"\alpha"})
+    ('z_{C_{1}} - z_{B_{1}} > 0', '\\sin(\\beta - \\alpha) > 0')
+    """
+
+    def letters(match: re.Match[str]) -> str:
+        function, joint, axis, name = match.groups()
+        if function:
+            return rf"\{function}("
+        if axis:
+            return f"{axis}_{{{joint_letter(joint)}}}"
+        return angles.get(name, rf"\theta_{{{joint_letter(name)}}}")
+
+    return re.sub(r"\b(sin|cos|tan)\(|\b([A-Za-z][\w.]*)\.([xyz])\b|\b([A-Za-z][\w.]*)", letters, text).replace("*", "")

@@ -1,0 +1,367 @@
+"""A solution as a paper writes it: reasons, then set by set what is unknown, equations, elimination, result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy
+
+from assur.derivation.angle_eliminant import AngleEliminant
+from assur.derivation.definitions import Definition
+from assur.derivation.elimination import Root, SolvedSet
+from assur.derivation.formula_latex import BREAK, COLUMN, FUNCTIONS, FormulaLatex, width, wrapped
+from assur.derivation.linear import ONE, Form, never_zero
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.printed_letters import PrintedLetters, input_letter, joint_letter, listed, words
+from assur.derivation.reasons import direction
+from assur.derivation.rod_vectors import RodVectors, rod_vectors
+from assur.derivation.solution import AnalyticSolution
+
+ZERO = sympy.Integer(0)
+NOT_ZERO = r"\ne 0$"
+NARROW = 12
+"""So wide may be what a letter is multiplied with on the left."""
+
+
+@dataclass(frozen=True)
+class WrittenFormula:
+    r"""A formula in LaTeX: left side with its relation, rows of the right side.
+
+    >>> WrittenFormula("B_{1}", ("l_{3} - y_{1}", "+ y_{2}")).latex
+    'B_{1} = l_{3} - y_{1} + y_{2}'
+    """
+
+    left: str
+    rows: tuple[str, ...]
+    relation: str = "="
+
+    @property
+    def latex(self) -> str:
+        """On one line."""
+        return f"{self.left} {self.relation} {' '.join(self.rows)}"
+
+
+Block = str | tuple[WrittenFormula, ...]
+"""A paragraph, whose mathematics stands between dollar signs, or formulas."""
+
+
+@dataclass(frozen=True)
+class WrittenPart:
+    """A subsection: its title, paragraphs and formulas."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class WrittenSolution:
+    """Writes one problem.
+
+    Attributes:
+        solution: what is written.
+        printed: its letters.
+        meanings: root -> what holds where its sign is +, in words; empty where nobody said.
+    """
+
+    solution: AnalyticSolution
+    printed: PrintedLetters
+    meanings: Mapping[sympy.Symbol, str]
+
+    @cached_property
+    def writer(self) -> FormulaLatex:
+        """Writes formulas in these letters."""
+        return FormulaLatex(self.printed.letters, self.printed.radicals)
+
+    def reasons(self) -> tuple[str, ...]:
+        """Why links do not turn: axes and chains, one sentence each."""
+        return tuple(self._reasons())
+
+    def parts(self) -> tuple[WrittenPart, ...]:
+        """The sets in their order, then the result."""
+        own = [self._set(number, part) for number, part in enumerate(self.solution.sets, start=1)]
+        return (*own, self._result())
+
+    def line(self, symbol: sympy.Symbol, formula: sympy.Expr) -> WrittenFormula:
+        """A definition, without lengths divided out and with the sign of its letter."""
+        letter = self.writer.letters[symbol]
+        plain = self.writer.displayed(formula)
+        above, below = sympy.fraction(sympy.together(plain) if letter.rank == 5 else plain)
+        if letter.sense < 0:
+            above = sympy.factor_terms(-above)
+        parameters = {*self.solution.symbols.parameters.values(), *self.printed.radicals.values()}
+        below = self._short(below)
+        shown = width(self.writer.text(below)) < NARROW
+        if shown and above.is_Add and below != 1 and not below.free_symbols - parameters and letter.rank == 5:
+            left = self.writer.text(below * symbol * letter.sense)
+            return WrittenFormula(left, self.writer.broken(above, width(left) + 2))
+        left = self.writer.text(symbol * letter.sense)
+        whole = above if below == 1 else above / below
+        return WrittenFormula(left, self.writer.broken(whole, width(left) + 2))
+
+    def _short(self, formula: sympy.Expr) -> sympy.Expr:
+        """With cosines and sines of angles among the dimensions put together."""
+        return sympy.factor_terms(sympy.trigsimp(formula)) if formula.has(*FUNCTIONS) else formula
+
+    def _condition(self, condition: sympy.Expr) -> str:
+        """What must not vanish: of a quotient what is above."""
+        above, _ = sympy.fraction(sympy.together(condition))
+        return self.writer.text(self._short(above))
+
+    def _reasons(self) -> Iterator[str]:
+        for reason in self.solution.placed.reasons:
+            ways = (
+                f"axes along {self.axis(axis)} ({', '.join(f'${joint_letter(joint)}$' for joint in joints)})"
+                for axis, joints in ((reason.first, reason.first_joints), (reason.second, reason.second_joints))
+            )
+            first, second = ways
+            link, carrier = words(reason.link), words(reason.carrier)
+            yield f"{link} hangs on {carrier} by {first} and by {second}; so it does not turn against it."
+
+    def axis(self, axis: Sequence[Any]) -> str:
+        """A direction between dollar signs: a letter, or the vector without its length."""
+        vector = sympy.Matrix(axis)
+        plain = direction(axis)  # type: ignore[arg-type]
+        if len(plain) == 1:
+            return f"${plain}$"
+        whole = vector / next(abs(part) for part in vector if part != 0)
+        parts = (self.writer.text(sympy.radsimp(sympy.simplify(part))) for part in whole)
+        return f"$({', '.join(parts)})$"
+
+    def _set(self, number: int, part: SolvedSet) -> WrittenPart:
+        links = listed([words(own.links[0]) for own in part.directions])
+        return WrittenPart(f"Set {number}: {links}", tuple(self._blocks(part)))
+
+    def _blocks(self, part: SolvedSet) -> Iterator[Block]:
+        joints = ", ".join(f"${joint_letter(joint)}$" for joint in self.joints(part))
+        unknown = listed([f"${self.printed.angle(own)}$" for own in part.directions])
+        yield f"The chain of {joints}. Unknown: {unknown}. The loop equations in which nothing else is unknown are"
+        yield tuple(self._equation(form) for form in part.equations)
+        steps = _Steps(part)
+        if steps.known:
+            yield "where"
+            yield tuple(self.line(own.symbol, own.formula) for own in steps.known)
+        yield from self._elimination(part, steps)
+        yield from self._choice(part)
+
+    def joints(self, part: SolvedSet) -> list[str]:
+        """Joints of the links that a set solves for, the parts of a parallelogram as one."""
+        record = self.solution.symbols.record
+        links = {link for own in part.directions for link in own.links}
+        whole = {joint: name for name, group in record.generalised.items() for joint in group.joints}
+        names = [name for name, joint in record.joints.items() if {joint.parent, joint.child} & links]
+        return list(dict.fromkeys(whole.get(name, name) for name in names))
+
+    def _elimination(self, part: SolvedSet, steps: _Steps) -> Iterator[Block]:
+        if part.eliminant is not None:
+            yield from self._polynomial(part, part.eliminant, steps)
+            return
+        base, others = part.directions[0], part.directions[1:]
+        vectors = rod_vectors(part)
+        if part.lines:
+            left = listed([f"${self.printed.angle(own)}$" for own in others])
+            yield f"These are solved for {left}. {self._quadrics(others)}, ${self.printed.angle(base)}$ satisfies"
+            yield tuple(self._named_equation(form, steps) for form in part.lines)
+        if vectors is not None:
+            yield "where"
+            yield tuple(self._of_vectors(vectors, steps))
+            yield "and so"
+            yield (self._direction(vectors),)
+        else:
+            if steps.named:
+                yield "where" if part.lines else "with"
+                yield tuple(self.line(own.symbol, own.formula) for own in steps.named)
+            yield "and so"
+            yield tuple(self.line(own.symbol, own.formula) for own in steps.of((*base.unknowns, *steps.late)))
+        rest = [own for other in others for own in steps.of(other.unknowns)]
+        if rest:
+            yield "Back in the loop equations,"
+            yield tuple(self.line(own.symbol, own.formula) for own in rest)
+
+    def _polynomial(self, part: SolvedSet, eliminant: AngleEliminant, steps: _Steps) -> Iterator[Block]:
+        """A coupled set: all but one angle follow linearly, and the equation that is left over is its polynomial."""
+        angle = self.printed.angle(eliminant.direction)
+        others = [own for own in part.directions if own is not eliminant.direction]
+        left = listed([f"${self.printed.angle(own)}$" for own in others])
+        yield f"These belong together. ${angle}$ is taken as known; {left} follow linearly. With"
+        after = {own.symbol for own in (*eliminant.entries, *eliminant.steps)}
+        known = [own for own in steps.named if own.symbol not in after]
+        yield tuple(self.line(own.symbol, own.formula) for own in (*known, *eliminant.entries))
+        *before, last = eliminant.steps
+        if before:
+            yield "and"
+            yield tuple(self.line(own.symbol, own.formula) for own in before)
+        power = f"^{{{eliminant.spare}}}" if eliminant.spare > 1 else ""
+        spare = rf", without $(1 + t^{{2}}){power}$ that divides it" if eliminant.spare else ""
+        yield (
+            rf"one equation is left over, in $t = \tan(\frac{{1}}{{2}}{angle})$ a polynomial of degree "
+            f"{eliminant.degree}{spare}:"
+        )
+        yield (WrittenFormula("0", self.writer.rows(last.formula, 3)),)
+        yield "At each of its roots"
+        yield tuple(self.line(own.symbol, own.formula) for other in others for own in steps.of(other.unknowns))
+        texts = dict.fromkeys(self._condition(own) for own in part.conditions if not never_zero(own))
+        if texts:
+            yield f"The formulas hold where {listed([rf'${text} ' + NOT_ZERO for text in texts])}."
+
+    def _quadrics(self, others: Sequence[UnknownDirection]) -> str:
+        """Why squares add up to 1."""
+        units = [f"${self.printed.angle(own)}$" for own in others if own.kind == "rod"]
+        if units:
+            return f"As {listed(units)} {'is a unit vector' if len(units) == 1 else 'are unit vectors'}"
+        angles = (self.printed.angle(own) for own in others)
+        sums = [rf"$\cos^{{2}}{own} + \sin^{{2}}{own} = 1$" for own in angles]
+        return f"As {listed(sums)}"
+
+    def order(self) -> tuple[WrittenFormula, ...]:
+        """What each set takes of what is given and of sets before it, and what it gives."""
+        return tuple(self._flow())
+
+    def _flow(self) -> Iterator[WrittenFormula]:
+        owner = {symbol: own for own in self.solution.loops.directions for symbol in own.unknowns}
+        formulas = {own.symbol: own.formula for own in self.solution.definitions}
+        dimensions = {*self.solution.symbols.parameters.values()}
+        for part in self.solution.sets:
+            ahead = [form for line in part.equations for form in line.values()]
+            first, later = dict[str, None](), dict[str, None]()
+            inside = {symbol for own in part.directions for symbol in own.unknowns}
+            while ahead:
+                for symbol in sorted(sympy.sympify(ahead.pop(0)).free_symbols - dimensions - inside, key=str):
+                    if symbol in owner:
+                        later[self.printed.angle(owner[symbol])] = None
+                    elif symbol in formulas:
+                        ahead.append(formulas[symbol])
+                    else:
+                        first[self.writer.letters[symbol].latex] = None
+            given = ", ".join(self.printed.angle(own) for own in part.directions)
+            yield WrittenFormula(", ".join([*first, *later]), (given,), r"\to")
+
+    def _choice(self, part: SolvedSet) -> Iterator[Block]:
+        for root in part.roots:
+            sign = self.printed.signs[root.symbol][0]
+            radicand = self.writer.text(root.radicand)
+            said = f"${sign} = \\pm 1$: {self._said(root)}. Branches are real where ${radicand} \\ge 0$"
+            texts = dict.fromkeys(self._condition(own) for own in part.conditions if not never_zero(own))
+            conditions = [f"${text} \\ne 0$" for text in texts]
+            yield f"{said}; the formulas hold where {listed(conditions)}." if conditions else f"{said}."
+
+    def _said(self, root: Root) -> str:
+        meaning = self.meanings.get(root.symbol, "")
+        if r"\theta_{" in meaning:
+            meaning += r", $\theta_{J}$ the angle of joint $J$"
+        return f"$+$ where {meaning}" if meaning else f"the sign of ${self.writer.text(root.quantity)}$"
+
+    def _result(self) -> WrittenPart:
+        direct = self.solution.symbols.problem == "direct"
+        rows = tuple(self._pose() if direct else self._inputs())
+        return WrittenPart("The pose" if direct else "The inputs", (rows,) if rows else (self._solved(),))
+
+    def _pose(self) -> Iterator[WrittenFormula]:
+        yield from (self.line(own.symbol, own.formula) for own in self.solution.lengths)
+        for name, formula in zip("xyz", self.solution.point, strict=True):
+            if name in self.solution.symbols.record.platform.pose:
+                yield self.line(sympy.Symbol(name, real=True), formula)
+
+    def _inputs(self) -> Iterator[WrittenFormula]:
+        formulas = {own.symbol: own.formula for own in self.solution.lengths}
+        record = self.solution.symbols.record
+        lengths = self.solution.loops.lengths
+        driven = {lengths[own.coordinate.index]: own for own in record.inputs if own.coordinate.index in lengths}
+        for symbol, formula in formulas.items():
+            if symbol in driven:
+                own = driven[symbol]
+                symbol = sympy.Symbol(own.name, real=True)
+                formula = int(own.sign) * formula + sympy.nsimplify(own.offset, rational=True)
+            yield self.line(symbol, formula)
+
+    def _solved(self) -> str:
+        letters = listed([f"${input_letter(driven)}$" for driven in self.solution.symbols.record.inputs])
+        return f"The inputs are {letters}, found above."
+
+    def _equation(self, form: Form) -> WrittenFormula:
+        """A linear equation: what is unknown on the left, what is known on the right."""
+        terms = [(key, coefficient) for key, coefficient in form.items() if key != ONE]
+        known = -form.get(ONE, ZERO)
+        if known != 0 and self._negative(known) and all(self._negative(own * key) for key, own in terms):
+            terms, known = [(key, -own) for key, own in terms], -known
+        ahead = [own * key for key, own in terms if known != 0 or not self._negative(own * key)]
+        behind = [-own * key for key, own in terms if known == 0 and self._negative(own * key)]
+        if not ahead:
+            ahead, behind = behind, []
+        left = self._terms(ahead)
+        right = self._terms(behind) if behind else self.writer.rows(known, min(width(left), COLUMN - 8))
+        if isinstance(right, str):
+            right = wrapped(right, min(width(left) + 2, COLUMN - 8))
+        rows = wrapped(left)
+        if len(rows) == 1 and width(left) + max(map(width, right)) < COLUMN:
+            return WrittenFormula(left.replace(BREAK, " "), right)
+        return WrittenFormula("0", wrapped(self._terms([*ahead, *(-own for own in (*behind, known) if own != 0)]), 3))
+
+    def _negative(self, term: sympy.Expr) -> bool:
+        plain = self.writer.displayed(term)
+        return bool(plain.could_extract_minus_sign())
+
+    def _terms(self, terms: Iterable[sympy.Expr]) -> str:
+        """A sum term by term, each coefficient kept together."""
+        texts = [self.writer.marked(term) for term in terms]
+        positive = next((k for k, text in enumerate(texts) if not text.startswith("-")), 0)
+        texts.insert(0, texts.pop(positive))
+        return texts[0] + "".join(
+            f"{BREAK}- {text[1:]}" if text.startswith("-") else f"{BREAK}+ {text}" for text in texts[1:]
+        )
+
+    def _named_equation(self, form: Form, steps: _Steps) -> WrittenFormula:
+        """An equation with its coefficients under their names."""
+        named = {key: steps.names.get(sympy.factor_terms(own), own) for key, own in form.items() if key != ONE}
+        known = -form.get(ONE, ZERO)
+        return self._equation({**named, ONE: -steps.names.get(sympy.factor_terms(known), known)})
+
+    def _of_vectors(self, vectors: RodVectors, steps: _Steps) -> Iterator[WrittenFormula]:
+        skipped = {*vectors.across}
+        for own in steps.named:
+            if own.symbol == vectors.across[0]:
+                first, second = (self.printed.vector(normal) for normal in vectors.normals)
+                yield WrittenFormula(self.printed.vector(vectors.across), (rf"{first} \times {second}",))
+            if own.symbol == vectors.square:
+                across = self.printed.vector(vectors.across)
+                yield WrittenFormula(self.writer.text(own.symbol), (rf"{across} \cdot {across}",))
+            elif own.symbol == vectors.radicand:
+                yield WrittenFormula(self.writer.text(own.symbol), (self._apart(vectors),))
+            elif own.symbol not in skipped:
+                yield self.line(own.symbol, own.formula)
+
+    def _apart(self, vectors: RodVectors) -> str:
+        u, v = (self.printed.vector(normal) for normal in vectors.normals)
+        h, k = (self.writer.text(share) for share in vectors.shares)
+        return rf"{self.writer.text(vectors.square)} - |{h}\,{v} - {k}\,{u}|^{{2}}"
+
+    def _direction(self, vectors: RodVectors) -> WrittenFormula:
+        u, v = (self.printed.vector(normal) for normal in vectors.normals)
+        w = self.printed.vector(vectors.across)
+        h, k = (self.writer.text(share) for share in vectors.shares)
+        root, square = self._terms([ZERO + vectors.root]), self.writer.text(vectors.square)
+        root = f"- {root[1:]}" if root.startswith("-") else f"+ {root}"
+        text = rf"\frac{{1}}{{{square}}}({h}\,{v} \times {w}{BREAK}+ {k}\,{w} \times {u}{BREAK}{root}\,{w})"
+        left = self.printed.vector(vectors.unknowns)
+        return WrittenFormula(left, wrapped(text, width(left) + 2))
+
+
+class _Steps:
+    """The definitions of a set by what they are for."""
+
+    def __init__(self, part: SolvedSet) -> None:
+        unknowns = {symbol for own in part.directions for symbol in own.unknowns}
+        used = {symbol for form in part.equations for own in form.values() for symbol in own.free_symbols}
+        roots = {root.symbol for root in part.roots}
+        self.definitions = part.definitions
+        self.known = [own for own in part.definitions if own.symbol in used and own.symbol not in unknowns]
+        named = [own for own in part.definitions if own.symbol not in {*used, *unknowns, *roots}]
+        self.named = [own for own in named if not own.formula.free_symbols & unknowns]
+        self.late = [own.symbol for own in named if own not in self.named]
+        self.names = {own.formula: own.symbol for own in self.named}
+
+    def of(self, unknowns: Sequence[sympy.Symbol]) -> list[Definition]:
+        """What defines these."""
+        return [own for own in self.definitions if own.symbol in unknowns]

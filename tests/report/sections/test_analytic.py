@@ -1,0 +1,35 @@
+"""The analytic solution in a report: a section a problem, every formula as mathematics; none where none is derived."""
+
+from assur.model.registry import load_record
+from assur.report.sections.analytic import analytic_solutions
+from assur.results.kinds import Facts, Formulas
+
+
+def test_both_problems_have_their_reasons_and_their_sets():
+    (section,) = analytic_solutions(load_record("zeng2019"))
+    direct, inverse = section.results
+    assert direct.text.startswith("There are 8 branches; each closes every loop")
+    assert inverse.text.startswith("There are 32 branches")
+    reasons, *sets = direct.results
+    assert isinstance(reasons, Facts)
+    assert "link11 hangs on base" in reasons.items[0][1]
+    assert [own.title for own in sets] == [
+        "Set 1: link 9 and link 10", "Set 2: link 4a", "Set 3: link 12 and link 7a", "The pose"
+    ]  # fmt: skip
+    assert r"$B_{1} \ne 0$" in sets[0].caption
+
+
+def test_every_formula_is_mathematics():
+    for name in ("zeng2019", "delta_4s"):
+        (section,) = analytic_solutions(load_record(name))
+        lines = [
+            line for part in section.results for own in part.results if isinstance(own, Formulas) for line in own.lines
+        ]
+        assert len(lines) > 40
+        assert not [line.mathml for line in lines if "merror" in line.mathml]
+
+
+def test_what_is_not_derived_has_no_section():
+    assert [*analytic_solutions(load_record("gough_stewart"))] == []
+    (section,) = analytic_solutions(load_record("three_rrrp4r"))
+    assert [own.title for own in section.results] == ["The inverse problem by formulas"]
