@@ -119,8 +119,8 @@ def test_the_document_has_its_parts_in_their_order():
 
 
 def formulas_in(text):
-    displays = re.findall(r"\\begin\{align\*?\}.*?\\end\{align\*?\}", text, re.DOTALL)
-    body = re.sub(r"\\begin\{align\*?\}.*?\\end\{align\*?\}", "", text, flags=re.DOTALL)
+    displays = re.findall(r"\\begin\{(?:align\*?|gather)\}.*?\\end\{(?:align\*?|gather)\}", text, re.DOTALL)
+    body = re.sub(r"\\begin\{(?:align\*?|gather)\}.*?\\end\{(?:align\*?|gather)\}", "", text, flags=re.DOTALL)
     return [*displays, *re.findall(r"\$([^$]+)\$", body)]
 
 
@@ -133,7 +133,7 @@ def test_katex_reads_every_formula_strictly(tmp_path):
     )
     if done.returncode:
         pytest.skip(f"NOT CHECKED: whether KaTeX reads the formulas; npm cannot install: {done.stderr[-500:]}")
-    formulas = sorted({formula for name in QUICK for formula in formulas_in(text_of(name))})
+    formulas = sorted({formula for name in (*QUICK, "planar_3rrr") for formula in formulas_in(text_of(name))})
     assert len(formulas) > 100
     read = subprocess.run(
         ["node", "strict.cjs"], cwd=tmp_path / "katex", input=json.dumps(formulas), capture_output=True, text=True,
@@ -143,7 +143,7 @@ def test_katex_reads_every_formula_strictly(tmp_path):
 
 
 @pytest.mark.latex
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", [*QUICK, "planar_3rpr", "planar_3rrr"])
 def test_the_document_compiles_and_no_line_is_longer_than_its_column(name, tmp_path):
     (tmp_path / "d.tex").write_text(text_of(name), encoding="ascii")
     done = subprocess.run(

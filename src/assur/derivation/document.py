@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from assur.derivation.formula_latex import COLUMN, width
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
 from assur.derivation.printed_letters import joint_letter, listed, plain
 from assur.derivation.written_solution import Block, WrittenFormula
@@ -23,6 +24,8 @@ CLOSE = {
     "conditions hold, since every step is an equivalence",
     False: "NOT ALL of them close every loop",
 }
+NUMBER = 8
+"""Letters that the number of a formula takes."""
 ROWS = 16
 """Branches in a table."""
 
@@ -126,6 +129,11 @@ def aligned(formulas: tuple[WrittenFormula, ...], numbered: bool = True) -> str:
       &\quad + y_{2}
     \end{align}
     """
+    if (
+        max(width(own.left) for own in formulas) + max(width(row) for own in formulas for row in own.rows)
+        > COLUMN - NUMBER
+    ):
+        return _gathered(formulas)
     lines = []
     for own in formulas:
         first, *others = own.rows
@@ -133,6 +141,17 @@ def aligned(formulas: tuple[WrittenFormula, ...], numbered: bool = True) -> str:
     body = " \\\\\n  ".join(lines)
     kind = "align" if numbered else "align*"
     return f"\\begin{{{kind}}}\n  {body}\n\\end{{{kind}}}"
+
+
+def _gathered(formulas: tuple[WrittenFormula, ...]) -> str:
+    """The same, each in its own place, where left and right sides have no room beside one another."""
+    lines = []
+    for own in formulas:
+        rows = " \\\\\n  &\\quad ".join([f"{own.left} &{own.relation} {own.rows[0]}", *own.rows[1:]])
+        plain_line = f"{own.left} {own.relation} {own.rows[0]}"
+        lines.append(plain_line if len(own.rows) == 1 else f"\\begin{{aligned}}\n  {rows}\n\\end{{aligned}}")
+    body = " \\\\\n  ".join(lines)
+    return f"\\begin{{gather}}\n  {body}\n\\end{{gather}}"
 
 
 def _example(own: PrintedProblem) -> Iterator[str]:

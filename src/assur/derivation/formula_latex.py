@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import sympy
 
-COLUMN = 44
+COLUMN = 40
 """Letters on a line of a column in print, about."""
 ZERO = sympy.Integer(0)
 FUNCTIONS = (sympy.cos, sympy.sin)
