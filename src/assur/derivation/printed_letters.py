@@ -298,13 +298,14 @@ def _kind(name: str) -> tuple[str, str]:
 def words(link: str) -> str:
     """A link's name in words, with its number apart.
 
-    >>> words("leg1.arm"), words("link4a")
-    ('arm of limb 1', 'link 4a')
+    >>> words("leg1.arm"), words("b1.arm"), words("link4a")
+    ('arm of limb 1', 'arm of limb b1', 'link 4a')
     """
-    limb = re.fullmatch(r"[A-Za-z]+(\d+)\.([A-Za-z]+)(\d*)", link)
+    limb = re.fullmatch(r"([A-Za-z]+)(\d+)\.([A-Za-z]+)(\d*)", link)
     if limb:
-        number, part, further = limb.groups()
-        return f"{part}{' ' + further if further else ''} of limb {number}"
+        name, number, part, further = limb.groups()
+        of = f"limb {number}" if len(name) > 1 else f"limb {name}{number}"  # one of several kinds, as a1 and b1
+        return f"{part}{' ' + further if further else ''} of {of}"
     plain = re.fullmatch(r"([A-Za-z]+)(\d+)(\w?)", link)
     return f"{plain[1]} {plain[2]}{plain[3]}" if plain and len(plain[1]) > 1 else link
 
