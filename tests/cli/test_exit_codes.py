@@ -39,6 +39,10 @@ QUESTIONS = [
     ("aspects fivebar --mode=-+ --from 0,900 --box y=0:1000", 4),
     ("aspects fivebar --mode=-+ --from -60,150 --to 60,220", 0),
     (" ".join((*PATH, "--from -60,150 --to 60,220")), 0),
+    # formulas: square roots, one polynomial, or a set of links that resists
+    ("derive fivebar", 0),
+    ("derive planar_3rpr", 0),
+    ("derive gough_stewart", 5),
     # bounds are an answer and no question
     ("certify zeng2019 -o FILE --most 1", 0),
 ]

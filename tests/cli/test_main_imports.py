@@ -52,7 +52,7 @@ def test_a_check_sets_no_type_to_see_that_labels_can_be_set(cache):
     [
         (("--help",), set(), 51),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 127),
+        (("show", "zeng2019"), NUMPY, 128),
         (DIRECT, NUMPY, 137),
         (INVERSE, NUMPY, 137),
     ],

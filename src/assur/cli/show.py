@@ -39,7 +39,7 @@ def description(record: Mechanism) -> MechanismAnswer:
     """The mechanism, with angles in its angle unit."""
     from assur.kinematics.answers.at_border import angle_at_border
     from assur.kinematics.closure import closure_error
-    from assur.kinematics.named_signs import written_quantities
+    from assur.kinematics.modes import written_quantities
     from assur.model.pose import is_angle
     from assur.results.answers.catalogue import (
         MechanismAnswer,

@@ -16,8 +16,7 @@ from assur.derivation.elimination import Root
 from assur.derivation.joint_formulas import BallRotation
 from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
 from assur.derivation.symbols import circle_of
-from assur.kinematics.modes import Problem
-from assur.kinematics.named_signs import written_quantities
+from assur.kinematics.modes import Problem, written_quantities
 from assur.kinematics.naming import sign_meanings
 
 CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
+from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
 
 Problem = Literal["direct", "inverse"]
@@ -22,6 +23,12 @@ SYMBOLS = {1: "+", -1: "-", 0: "0"}
 def sign_names(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:
     """Signs that name a branch: the assembly signs of the direct problem, the working signs of the inverse one."""
     return tuple(record.modes.assembly if problem == "direct" else record.modes.working)
+
+
+def written_quantities(record: MechanismRecord, problem: Problem) -> dict[str, Formula]:
+    """The quantities by whose signs the file names the modes of a problem; none where it names none."""
+    own = record.modes.assembly if problem == "direct" else record.modes.working
+    return {name: formula for name, formula in own.items() if formula is not None}
 
 
 def all_modes(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:

@@ -7,17 +7,10 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantities
-from assur.kinematics.modes import Problem, mode_text
-from assur.model.formula import Formula
+from assur.kinematics.modes import Problem, mode_text, written_quantities
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
-
-
-def written_quantities(record: MechanismRecord, problem: Problem) -> dict[str, Formula]:
-    """The quantities by whose signs the file names the modes of a problem; none where it names none."""
-    own = record.modes.assembly if problem == "direct" else record.modes.working
-    return {name: formula for name, formula in own.items() if formula is not None}
 
 
 def named_signs(record: MechanismRecord, problem: Problem, joints: FloatArray, zero: float = 0.0) -> NDArray[np.int8]:

@@ -10,8 +10,8 @@ from itertools import chain, count
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.modes import Problem, mode_text, sign_names
-from assur.kinematics.named_signs import named_signs, written_quantities
+from assur.kinematics.modes import Problem, mode_text, sign_names, written_quantities
+from assur.kinematics.named_signs import named_signs
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -37,8 +37,8 @@ from assur.model.syntax import (
 MAX_LENGTH = 1000
 MAX_DEPTH = 30
 FUNCTIONS = ("sqrt", "sin", "cos")
-UNITS = ("deg", "rad")
-RESERVED = (*FUNCTIONS, *UNITS, "pi")
+ANGLE_UNITS = ("deg", "rad")
+RESERVED = (*FUNCTIONS, *ANGLE_UNITS, "pi")
 
 _PART = r"[A-Za-z_][A-Za-z0-9_]*'*"
 _TOKEN = re.compile(
@@ -220,7 +220,7 @@ class _Reader:
     def _number(self, token: _Token) -> Node:
         if math.isinf(float(token.text)):
             self._fail(token.position, f"'{token.text}'", "a number below 1.8e308")
-        if self._next.text in UNITS:
+        if self._next.text in ANGLE_UNITS:
             return Angle(token.text, self._take().text)
         return Number(token.text)
 
@@ -231,7 +231,7 @@ class _Reader:
             return Call(token.text, self._nested(self._take()))
         if token.text == "pi":
             return Pi()
-        if token.text in UNITS:
+        if token.text in ANGLE_UNITS:
             self._fail(token.position, f"'{token.text}'", _VALUE, f"a unit follows a number: 30 {token.text}")
         self.names.add(token.text)
         return Name(token.text)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from types import SimpleNamespace
 from typing import Any
 
-from assur.model.file.values import ANGLE_UNITS
 from assur.model.mechanism import MechanismRecord
 
 
@@ -20,21 +19,16 @@ def angle_components(name: str) -> tuple[str, str]:
     return f"cos {name}", f"sin {name}"
 
 
-def is_angular(record: MechanismRecord, name: str) -> bool:
-    """Whether a dimension is an angle."""
-    return record.parameters[name].unit in ANGLE_UNITS
-
-
 def dimension_numbers(record: MechanismRecord) -> Mapping[str, float]:
     """All numbers of a mechanism's dimensions by name, in the file's units of length: two of an angle.
 
     >>> from assur.model.registry import load_record
     >>> dict(dimension_numbers(load_record("fivebar")))["l1"]
-    60.0
+    100.0
     """
     numbers: dict[str, float] = {}
     for name, value in vars(record.values).items():
-        if is_angular(record, name):
+        if record.parameters[name].angular:
             numbers |= zip(angle_components(name), (math.cos(value), math.sin(value)), strict=True)
         else:
             numbers[name] = value
@@ -50,7 +44,7 @@ def kernel_dimensions(record: MechanismRecord, number: Callable[[str], Any] | No
     """
     of = dimension_numbers(record).__getitem__ if number is None else number
     own = {
-        name: tuple(map(of, angle_components(name))) if is_angular(record, name) else of(name)
-        for name in record.parameters
+        name: tuple(map(of, angle_components(name))) if parameter.angular else of(name)
+        for name, parameter in record.parameters.items()
     }
     return SimpleNamespace(**own)

@@ -17,7 +17,7 @@ from assur.errors import UnknownNameError
 from assur.joints.joint_type import JointType
 from assur.model.closed_form import ClosedForm
 from assur.model.file.description import Description
-from assur.model.formula import Formula
+from assur.model.formula import ANGLE_UNITS, Formula
 from assur.model.written import JointFormulas, WrittenVector
 
 FloatArray = NDArray[np.float64]
@@ -33,6 +33,11 @@ class Parameter:
     unit: str
     sign: Literal["positive", "nonnegative", "any"] = "positive"
     drawn_only: bool = False
+
+    @property
+    def angular(self) -> bool:
+        """Whether it is an angle, not a length."""
+        return self.unit in ANGLE_UNITS
 
     @property
     def inside(self) -> float:

@@ -95,6 +95,7 @@ def _environment() -> jinja2.Environment:
         filled=filled,
         numeric=numeric_columns,
         filtered=filtered,
+        separator=SEPARATOR,
         trusted=lambda formula: Markup(formula.mathml),
     )
     return environment

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.turns import periodic_inputs
-from assur.model.kernel_dimensions import angle_components, is_angular, kernel_dimensions
+from assur.model.kernel_dimensions import angle_components, kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics.dual import Dual
@@ -34,7 +34,7 @@ def dimension_intervals(record: MechanismRecord) -> dict[str, Interval]:
     """Bounds of the numbers that kernels take, by name: a length is exact, an angle as one that is given."""
     intervals: dict[str, Interval] = {}
     for name, value in vars(record.values).items():
-        if is_angular(record, name):
+        if record.parameters[name].angular:
             angle = from_degrees(value) if record.parameters[name].unit == "deg" else Interval.of(value)
             intervals |= zip(angle_components(name), cosine_sine(angle), strict=True)
         else:

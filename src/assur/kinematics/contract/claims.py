@@ -21,8 +21,6 @@ from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, Eliminant, PolynomialSystem
 from assur.model.file.parameters import parameter_formulas
-from assur.model.file.values import ANGLE_UNITS
-from assur.model.kernel_dimensions import is_angular
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle, rate_names
 from assur.model.written import NumberReading
@@ -271,7 +269,7 @@ def _dimensions(record: MechanismRecord, ns: DrawnNumbers, general: bool) -> dic
     """What parameters are: drawn, or by their formulas; angles as angles."""
     if general:
         return {
-            name: DrawnAngle({name: Fraction(1)}) if item.unit in ANGLE_UNITS else ns.uniform()
+            name: DrawnAngle({name: Fraction(1)}) if item.angular else ns.uniform()
             for name, item in record.parameters.items()
         }
     formulas = parameter_formulas(record)
@@ -294,7 +292,7 @@ def _positive(record: MechanismRecord, names: Mapping[str, Any], general: bool) 
 
 def _taken(record: MechanismRecord, ns: DrawnNumbers, name: str, value: Any) -> Any:
     """A dimension as a kernel takes it: an angle as cosine and sine."""
-    return (ns.cos(value), ns.sin(value)) if is_angular(record, name) else value
+    return (ns.cos(value), ns.sin(value)) if record.parameters[name].angular else value
 
 
 def _pose(record: MechanismRecord, ns: DrawnNumbers) -> tuple[Any, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.contract.kernel import Kernel
-from assur.model.kernel_dimensions import angle_components, dimension_numbers, is_angular
+from assur.model.kernel_dimensions import angle_components, dimension_numbers
 from assur.model.pose import QUATERNION
 from assur.numerics.prime_field import PrimeField, simplest
 from assur.numerics.residues import Draws, Residues
@@ -283,7 +283,7 @@ class Identities:
             size = abs(value) or 1.0
             drawn = random.normal(0, 1, SAMPLES)
             kinds = {"positive": np.exp(drawn), "nonnegative": np.abs(drawn), "any": drawn}
-            if is_angular(record, name):
+            if record.parameters[name].angular:
                 found |= zip(angle_components(name), (np.cos(drawn) + 0j, np.sin(drawn) + 0j), strict=True)
                 continue
             found[name] = size * kinds[sign] + 0j

@@ -11,8 +11,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantities
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
-from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.named_signs import written_quantities
+from assur.kinematics.modes import Problem, sign_names, written_quantities
 from assur.kinematics.naming import declared_signs, sign_meanings
 from assur.kinematics.status import closed_form_of, scale
 

@@ -11,8 +11,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.model.file.faults import Faults
 from assur.model.file.numbers import AngleUnit, Kind, Numbers, kind_of
 from assur.model.file.schema import ParameterEntry
-from assur.model.file.values import ANGLE_UNITS
-from assur.model.formula import Formula, parse
+from assur.model.formula import ANGLE_UNITS, Formula, parse
 from assur.model.mechanism import MechanismRecord, Parameter
 from assur.model.written import in_degrees
 

@@ -15,7 +15,6 @@ from assur.model.file.texts import long_name
 from assur.model.formula import RESERVED, Formula, FormulaError, parse
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*'*")
-ANGLE_UNITS = ("deg", "rad")
 AXES = {
     "x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1),
     "-x": (-1, 0, 0), "-y": (0, -1, 0), "-z": (0, 0, -1),

@@ -18,7 +18,6 @@ import numpy as np
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Branch
-from assur.model.kernel_dimensions import is_angular
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.formulas.latex import name_mathml
@@ -119,7 +118,7 @@ class _Reader:
         form, ns = closed_form_of(self.record), Tracing(book)
         p = SimpleNamespace(
             **{
-                name: self._given(book, letters_of(name, "", is_angular(self.record, name)))
+                name: self._given(book, letters_of(name, "", self.record.parameters[name].angular))
                 for name in self.record.parameters
             }
         )

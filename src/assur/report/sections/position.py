@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import given_words
-from assur.kinematics.modes import Problem
-from assur.kinematics.named_signs import written_quantities
+from assur.kinematics.modes import Problem, written_quantities
 from assur.kinematics.naming import described_signs
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord

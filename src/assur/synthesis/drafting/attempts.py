@@ -11,7 +11,7 @@ from assur.errors import AssurError
 from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
-from assur.kinematics.named_signs import written_quantities
+from assur.kinematics.modes import written_quantities
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.structure import linkage
 from assur.kinematics.validation.check import faults
