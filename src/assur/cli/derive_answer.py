@@ -14,7 +14,8 @@ from assur.cli.paths import output_file
 from assur.derivation.derivation import derive
 from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
-from assur.derivation.reasons import direction, sentences
+from assur.derivation.phrases import direction
+from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem

@@ -170,12 +170,12 @@ class ClosedFormFormulas:
                 name, sense = self.signs[solution.symbols.problem, root.symbol]
                 value = self.in_unknowns(solution, root.quantity)
                 if solution is self.direct:
-                    value = value.subs(self._inputs_in_unknowns)
+                    value = value.subs(self.inputs_in_unknowns)
                 values[name] = sympy.factor_terms(sense * value)
         return values
 
     @cached_property
-    def _inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
+    def inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
         """Symbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
         pairs = zip(self.printed_inputs, self.input_pairs, strict=True)
         values: dict[sympy.Symbol, sympy.Expr] = {}

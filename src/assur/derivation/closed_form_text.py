@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,6 +11,7 @@ import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.closed_form_meanings import ClosedFormMeanings, CoincidenceMotion
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import Root
 from assur.derivation.joint_formulas import BallRotation
@@ -43,16 +44,19 @@ class ClosedFormText:
 
     Attributes:
         formulas: of both problems.
+        meanings: of its quantities; of a form that is worked out and not read by anyone there are none.
         constraint_singular: groups of factors where the closure loses rank.
     """
 
     formulas: ClosedFormFormulas
+    meanings: ClosedFormMeanings | None = None
     constraint_singular: tuple[tuple[str, ...], ...] = ()
 
     def text(self) -> str:
         """The file."""
-        parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._core(), self._joints(),
-                 self._factors(), self._jacobians(), self._quantities(), self._declaration()]  # fmt: skip
+        parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._self_motion(), self._core(),
+                 self._joints(), self._factors(), self._jacobians(), self._quantities(),
+                 self._declaration()]  # fmt: skip
         return "\n\n".join(part.strip("\n") + "\n" for part in parts if part)
 
     @cached_property
@@ -65,8 +69,12 @@ class ClosedFormText:
         sets = "; ".join(part.name for part in self.formulas.direct.sets)
         imports = []
         declared = ["Branch", "ClosedForm", "Factor", "Margin", "Sign"]
+        if self._angles or self._eliminant is not None:
+            declared.append("Quantity")
+        if self._motion is not None:
+            declared.append("SelfMotion")
         if self._eliminant is not None:
-            declared = sorted([*declared, "Eliminant", "Quantity"])
+            declared.append("Eliminant")
             imports.append("from assur.numerics.expanded import coefficients_of, unknowns")
         if self.formulas.joints.pointings:
             imports.append("from assur.numerics.legs import pointing")
@@ -74,7 +82,12 @@ class ClosedFormText:
         vectors = sorted(name for name, needed in used.items() if needed)
         if vectors:
             imports.append(f"from assur.numerics.vectors import {', '.join(vectors)}")
-        own = {"name": record.name, "sets": sets, "imports": "\n".join(imports), "declared": ", ".join(declared)}
+        own = {
+            "name": record.name,
+            "sets": sets,
+            "imports": "\n".join(imports),
+            "declared": ", ".join(sorted(declared)),
+        }
         return CODE_HEAD.format(**own)
 
     @cached_property
@@ -106,12 +119,62 @@ class ClosedFormText:
         roots = {root.symbol: root for root in self.formulas.solution(problem).roots}
         return (self._line(problem, own, roots) for own in definitions)
 
-    def _branch(self, problem: Problem) -> list[str]:
-        """The rest of a kernel, once its unknowns are known."""
+    @property
+    def _motion(self) -> CoincidenceMotion | None:
+        return self.meanings.self_motion if self.meanings is not None else None
+
+    @property
+    def _motion_angle(self) -> str:
+        """The angle that runs along the curve: the file's name for it, else the link's."""
+        if self._motion is None:
+            return ""
+        base = self._motion.part.directions[0]
+        names = [name for name, own in self._angles.items() if own == base.unknowns]
+        return names[0] if names else base.name
+
+    def _self_motion(self) -> str:
+        """The kernel of the curve on which the platform moves while the inputs stand."""
+        motion = self._motion
+        if motion is None:
+            return ""
+        cosine, sine = motion.part.directions[0].unknowns
+        lines = ["def self_motion(ns, p, inputs, angle, sign):"]
+        signs = ", ".join(self._motion_signs) or "none"
+        lines.append(f'    """Poses at {motion.condition} = 0, by {self._motion_angle}. Signs: {signs}."""')
+        lines += self._given("direct")
+        lines.append(f"    {cosine}, {sine} = angle")
+        lines += self._lines("direct", motion.definitions)
+        every = {own.symbol for own in self.formulas.direct.definitions}
+        left_out = every - {own.symbol for own in motion.definitions} - {cosine, sine}
+        return "\n".join([*lines, *self._branch("direct", left_out)])
+
+    @property
+    def _motion_signs(self) -> tuple[str, ...]:
+        """The signs that are left on the curve."""
+        if self._motion is None:
+            return ()
+        roots = [root for root in self.formulas.direct.roots if root not in self._motion.part.roots]
+        return tuple(self.formulas.signs["direct", root.symbol][0] for root in roots)
+
+    @cached_property
+    def _angles(self) -> dict[str, tuple[sympy.Expr, sympy.Expr]]:
+        """The angles that the file names, where a formula says them: cosine and sine."""
+        record = self.formulas.inverse.symbols.record
+        values = self.formulas.joints.values
+        pairs = {
+            name: values.get(own.joint, values.get(f"{own.joint}.{own.component}"))
+            for name, own in record.angles.items()
+        }
+        return {name: pair for name, pair in pairs.items() if isinstance(pair, tuple)}
+
+    def _branch(self, problem: Problem, left_out: Collection[sympy.Symbol] = ()) -> list[str]:
+        """The rest of a kernel, once its unknowns are known; margins of what is left out are left out too."""
         lines = [f"    {symbol.name} = {self.printer.doprint(value)}" for symbol, value in self.formulas.rest(problem)]
         lines.append(f"    core = _core(ns, p, {', '.join(map(str, [*self.formulas.posed, *self.formulas.unknowns]))})")
         margins = ", ".join(
-            f'"{name}": {self.printer.doprint(value)}' for name, value in self.formulas.margins(problem)
+            f'"{name}": {self.printer.doprint(value)}'
+            for name, value in self.formulas.margins(problem)
+            if not value.free_symbols & {*left_out}
         )
         pose, inputs = self._pair_text(self.formulas.posed_pairs), self._pair_text(self.formulas.input_pairs)
         lines.append(f"    margins = {{{margins}}}")
@@ -165,14 +228,27 @@ class ClosedFormText:
         yield "\n".join([*lines, *self._branch("direct")])
 
     def _quantities(self) -> str:
-        """The unknown of the polynomial by name."""
-        if self._eliminant is None:
+        """The angles that the file names, and the unknown of the polynomial."""
+        texts = {name: self._pair_text(pair) for name, pair in self._angles.items()}
+        if self._eliminant is not None:
+            pair = circle_of("phi") if self._unknown == "phi" else self._eliminant.direction.unknowns
+            texts[self._unknown] = f"({', '.join(f'core.{own}' for own in pair)})"
+        if not texts:
             return ""
-        cosine, sine = self._eliminant.direction.unknowns
-        text = f'    return {{"{self._unknown}": (core.{cosine}, core.{sine})}}'
-        if self._unknown == "phi":
-            text = f'    return {{"phi": ({", ".join(f"core.{own}" for own in circle_of("phi"))})}}'
-        return f'def quantities(ns, p, core):\n    """The unknown of the direct problem."""\n{text}\n'
+        lines = ["def quantities(ns, p, core):", '    """Angles by their names."""']
+        lines += self._taken([part for pair in self._angles.values() for part in pair])
+        body = ", ".join(f'"{name}": {text}' for name, text in texts.items())
+        return "\n".join([*lines, f"    return {{{body}}}"])
+
+    def _quantity_list(self) -> Iterator[str]:
+        own = {
+            name: f"angle of joint {coordinate.joint}"
+            for name, coordinate in self.formulas.inverse.symbols.record.angles.items()
+            if name in self._angles
+        }
+        if self._eliminant is not None:
+            own[self._unknown] = f"angle of {self._eliminant.direction.links[0]}, the unknown of the direct problem"
+        return (f'Quantity("{name}", "angle", "", meaning="{meaning}")' for name, meaning in own.items())
 
     def _line(self, problem: Problem, own: Definition, roots: Mapping[sympy.Symbol, Root]) -> str:
         text = self.printer.doprint(own.formula)
@@ -291,10 +367,11 @@ class ClosedFormText:
             extra = f", {signs!r}" if signs else ""
             degree = self.formulas.direct.branches
             lines.append(f'    direct=Eliminant("{self._unknown}", "angle", {degree}, coefficients, back{extra}),')
-            lines.append("    quantities=quantities,")
-            meaning = f"angle of {eliminant.direction.links[0]}, the unknown of the direct problem"
-            lines.append(f'    quantity_list=(Quantity("{self._unknown}", "angle", "", meaning="{meaning}"),),')
         lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
+        quantities = [*self._quantity_list()]
+        if quantities:
+            lines.append("    quantities=quantities,")
+            lines += ["    quantity_list=(", *(f"        {text}," for text in quantities), "    ),"]
         lines.append("    signs={")
         scales = {name: self.formulas.scale(value) for name, value in self.formulas.sign_values.items()}
         lines += [f'        "{name}": Sign("{sign_attribute(name)}", "{scale}"),' for name, scale in scales.items()]
@@ -307,12 +384,21 @@ class ClosedFormText:
         lines.append("    factor_list=(")
         for name, kind, value in self.formulas.factors:
             unit, scale = self.formulas.unit(value), self.formulas.scale(value)
-            lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{name} vanishes", unit={unit}),')
+            meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
+            lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{meaning}", unit={unit}),')
         lines.append("    ),")
         if self.constraint_singular:
             lines.append(f"    constraint_singular={self.constraint_singular!r},")
+        if self._motion is not None:
+            lines += self._motion_declaration(self._motion)
         lines.append(")")
         return "\n".join(lines)
+
+    def _motion_declaration(self, motion: CoincidenceMotion) -> Iterator[str]:
+        if self.meanings is not None and self.meanings.self_motion_factors:
+            yield f"    self_motion_singular=({self.meanings.self_motion_factors!r},),"
+        margin = next(name for name, value in self.formulas.margins("direct") if value == motion.condition)
+        yield f'    self_motion=SelfMotion("{margin}", "{self._motion_angle}", {self._motion_signs!r}, self_motion),'
 
     def _names_of_graph(self) -> dict[str, tuple[str, ...]]:
         """Names of modes that are the joint graph's, where the file has none for a problem, in its order."""
@@ -327,14 +413,13 @@ class ClosedFormText:
 
     def _margin_list(self, problem: Problem) -> Iterator[str]:
         solution = self.formulas.solution(problem)
-        sets = {root.radicand: (root, part) for part in solution.sets for root in part.roots}
+        roots = {root.radicand: root for root in solution.roots}
         for name, value in self.formulas.margins(problem):
             whole = self.formulas.in_unknowns(solution, value)
             unit, scale = self.formulas.unit(whole), self.formulas.scale(whole)
-            if value in sets:
-                root, part = sets[value]
-                meaning = f"{part.name} do{'' if ' and ' in part.name else 'es'} not reach"
-                sign, _ = self.formulas.signs[problem, root.symbol]
-                yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, signs=("{sign}",))'
-            else:
-                yield f'Margin("{name}", "{scale}", "{name} vanishes", unit={unit}, zero="degenerate")'
+            meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
+            kind = 'zero="degenerate"'
+            if value in roots:
+                sign, _ = self.formulas.signs[problem, roots[value].symbol]
+                kind = f'signs=("{sign}",)'
+            yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, {kind})'

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.closed_form_meanings import ClosedFormMeanings
 from assur.derivation.closed_form_text import ClosedFormText
 from assur.derivation.mode_signs import matched_signs
 from assur.derivation.printed_derivation import PrintedDerivation, printed_derivation
@@ -24,8 +25,10 @@ class Derivation:
     def closed_form(self) -> str:
         """The file `closed_form.py`. Errors: NotDerivedError."""
         signs = matched_signs(self.direct, self.inverse)
-        plain = ClosedFormText(ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors))
-        return replace(plain, constraint_singular=rank_losses(self.record, plain.text())).text()
+        formulas = ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors)
+        plain = ClosedFormText(formulas)
+        lost = rank_losses(self.record, plain.text())
+        return replace(plain, meanings=ClosedFormMeanings(formulas), constraint_singular=lost).text()
 
     def printed(self) -> PrintedDerivation:
         """Both problems for print."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from assur.derivation.formula_latex import COLUMN, width
+from assur.derivation.phrases import listed
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
-from assur.derivation.printed_letters import joint_letter, listed, plain
+from assur.derivation.printed_letters import joint_letter, plain
 from assur.derivation.written_solution import Block, WrittenFormula
 from assur.results.plain_text import signed
 from assur.topology.facts import Topology

@@ -89,6 +89,7 @@ def eliminated(
         tuple(dict.fromkeys((*left.conditions, *determinant))),
         (*eliminant.known, *after),
         (),
+        (),
         eliminant,
     )
 

@@ -43,6 +43,7 @@ class SolvedSet:
         conditions: what was divided by, and must not vanish.
         definitions: symbols in the order of computation, those of the directions last.
         roots: the choices of two.
+        shared: of the conditions those that all of a line had in common: where one fails, two curves coincide.
         eliminant: of a coupled set the polynomial by whose roots it is solved; definitions of what follows of a root
             stand after those of what is known before.
     """
@@ -53,6 +54,7 @@ class SolvedSet:
     conditions: tuple[sympy.Expr, ...]
     definitions: tuple[Definition, ...]
     roots: tuple[Root, ...]
+    shared: tuple[sympy.Expr, ...] = ()
     eliminant: AngleEliminant | None = None
 
     @property
@@ -105,6 +107,7 @@ class _Set:
         self.definitions: list[Definition] = []
         self.conditions: list[sympy.Expr] = []
         self.roots: list[Root] = []
+        self.shared: list[sympy.Expr] = []
         self.taken, self.letters = taken, iter("BCDEFGPQSTUV")
         self.equations = [self._with_names(form) for form in equations]
 
@@ -132,6 +135,7 @@ class _Set:
             tuple(self.conditions),
             tuple(self.definitions),
             tuple(self.roots),
+            tuple(self.shared),
         )
 
     def _line(self, direction: UnknownDirection, values: dict[sympy.Symbol, Form]) -> Form | None:
@@ -156,7 +160,9 @@ class _Set:
         plain = divided(form)
         key = next(iter(form))
         shared, _ = sympy.fraction(tidy(form[key] / plain[key]))
-        self.conditions += [factor for factor, _ in sympy.factor_list(shared)[1] if not never_zero(factor)]
+        factors = [factor for factor, _ in sympy.factor_list(shared)[1] if not never_zero(factor)]
+        self.conditions += factors
+        self.shared += factors
         return plain
 
     def _independent(self, lines: Sequence[Form]) -> list[Form]:

@@ -12,7 +12,8 @@ import sympy
 
 from assur.derivation.formula_latex import FormulaLatex, PrintedLetter
 from assur.derivation.loop_equations import UnknownDirection
-from assur.derivation.reasons import direction as direction_text
+from assur.derivation.phrases import direction as direction_text
+from assur.derivation.phrases import listed, words
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.kinematics.home import home_values
@@ -293,30 +294,6 @@ def _kind(name: str) -> tuple[str, str]:
         return name, ""
     before, number, after, further = match.groups()
     return f"{before} {after if len(after) > 1 else ''}{further}", number
-
-
-def words(link: str) -> str:
-    """A link's name in words, with its number apart.
-
-    >>> words("leg1.arm"), words("b1.arm"), words("link4a")
-    ('arm of limb 1', 'arm of limb b1', 'link 4a')
-    """
-    limb = re.fullmatch(r"([A-Za-z]+)(\d+)\.([A-Za-z]+)(\d*)", link)
-    if limb:
-        name, number, part, further = limb.groups()
-        of = f"limb {number}" if len(name) > 1 else f"limb {name}{number}"  # one of several kinds, as a1 and b1
-        return f"{part}{' ' + further if further else ''} of {of}"
-    plain = re.fullmatch(r"([A-Za-z]+)(\d+)(\w?)", link)
-    return f"{plain[1]} {plain[2]}{plain[3]}" if plain and len(plain[1]) > 1 else link
-
-
-def listed(names: Sequence[str]) -> str:
-    """Names one after another.
-
-    >>> listed(["A", "B", "C"])
-    'A, B and C'
-    """
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def plain(text: str) -> str:

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import sympy
-
 from assur.derivation.orientations import ConstraintReason, LinkOrientations
+from assur.derivation.phrases import direction
 from assur.numerics.vectors import Vector
-
-AXES = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}
 
 
 def sentences(placed: LinkOrientations) -> Iterator[str]:
@@ -28,9 +25,3 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
 def _chain(reason: ConstraintReason, axis: Vector, first: bool) -> str:
     joints = reason.first_joints if first else reason.second_joints
     return f"axes along {direction(axis)} ({', '.join(joints)})"
-
-
-def direction(axis: Vector) -> str:
-    """A direction in words: a letter, or its parts."""
-    x, y, z = (sympy.sympify(part) for part in axis)
-    return AXES.get((x, y, z), f"({x}, {y}, {z})")

@@ -84,9 +84,22 @@ class AnalyticSolution:
         quadrics = (direction.quadric for direction in self.loops.directions)
         return all(map(witness.is_zero, (*map(value_of, self.loops.forms), *quadrics)))
 
-    def _replayed(self, seed: int, sets: Sequence[SolvedSet], signs: Sequence[int]) -> ModularWitness:
-        """A witness of its own, with everything that sets define."""
+    def drawn(self, seed: int, signs: Sequence[int]) -> ModularWitness:
+        """A witness of a branch, at dimensions that stay what they are when all is drawn anew."""
         witness = ModularWitness(seed)
+        dimensions = [*self.symbols.parameters.values()]
+        values = [witness.value(symbol) for symbol in dimensions]
+        witness.drawn(dimensions, lambda: values)
+        witness = self._replayed(seed, self.sets, signs, witness)
+        for own in self.lengths:
+            witness.define(own.symbol, own.formula)
+        return witness
+
+    def _replayed(
+        self, seed: int, sets: Sequence[SolvedSet], signs: Sequence[int], witness: ModularWitness | None = None
+    ) -> ModularWitness:
+        """A witness of its own, with everything that sets define."""
+        witness = witness or ModularWitness(seed)
         for cosine, sine in self.symbols.circles:
             witness.on_circle(cosine, sine)
         turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=False)}

@@ -122,7 +122,7 @@ def with_strokes(
             definitions.append(definition)
     return SolvedSet(
         part.directions, part.equations, part.lines, tuple(conditions), tuple(definitions), tuple(roots),
-        part.eliminant,
+        part.shared, part.eliminant,
     )  # fmt: skip
 
 

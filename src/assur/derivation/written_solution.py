@@ -15,8 +15,8 @@ from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.formula_latex import BREAK, COLUMN, FUNCTIONS, FormulaLatex, width, wrapped
 from assur.derivation.linear import ONE, Form, never_zero
 from assur.derivation.loop_equations import UnknownDirection
-from assur.derivation.printed_letters import PrintedLetters, input_letter, joint_letter, listed, words
-from assur.derivation.reasons import direction
+from assur.derivation.phrases import direction, listed, words
+from assur.derivation.printed_letters import PrintedLetters, input_letter, joint_letter
 from assur.derivation.rod_vectors import RodVectors, rod_vectors
 from assur.derivation.solution import AnalyticSolution
 
@@ -123,7 +123,7 @@ class WrittenSolution:
     def axis(self, axis: Sequence[Any]) -> str:
         """A direction between dollar signs: a letter, or the vector without its length."""
         vector = sympy.Matrix(axis)
-        plain = direction(axis)  # type: ignore[arg-type]
+        plain = direction(axis)
         if len(plain) == 1:
             return f"${plain}$"
         whole = vector / next(abs(part) for part in vector if part != 0)

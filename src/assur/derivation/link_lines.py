@@ -1,0 +1,168 @@
+"""Lines of links: for each unknown direction where its link points, about what it turns, and where it hangs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy
+
+from assur.derivation.exact_vectors import ExactVectors
+from assur.derivation.hinges import point_on
+from assur.derivation.loop_equations import LoopEquations, UnknownDirection
+from assur.derivation.orientations import LinkOrientations, Orientation
+from assur.derivation.phrases import NamedDirection, NamedJoint, NamedLink
+from assur.derivation.symbols import GivenSymbols
+from assur.joints.steps import UNTURNED
+from assur.model.mechanism import Joint
+from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract
+
+ZERO = sympy.Integer(0)
+
+
+@dataclass(frozen=True)
+class LinkLine:
+    """Where a link points: a vector of unit length, by the unknowns of its direction.
+
+    Attributes:
+        direction: the unknowns.
+        vector: from a joint of the link to another; of a link that turns what of it lies across the axis.
+        axis: about which it turns; none of a rod's.
+        still: the vector where the angle is zero.
+        reach: how long the link is along it.
+        joints: the two joints.
+    """
+
+    direction: UnknownDirection
+    vector: Vector
+    axis: Vector | None
+    still: Vector
+    reach: sympy.Expr
+    joints: tuple[str, str]
+
+
+@dataclass(frozen=True, eq=False)
+class LinkLines:
+    """The geometry of the links of a problem."""
+
+    symbols: GivenSymbols
+    placed: LinkOrientations
+    loops: LoopEquations
+
+    @cached_property
+    def exact(self) -> ExactVectors:
+        """Compares vectors."""
+        return ExactVectors(self.symbols.witness)
+
+    def of(self, direction: UnknownDirection) -> LinkLine | None:
+        """The line of a direction; None where no two joints of a link lie apart across its axis."""
+        return next(self.all(direction), None)
+
+    def all(self, direction: UnknownDirection) -> Iterator[LinkLine]:
+        """The lines from the first joint of a link to each other one."""
+        for link in direction.links:
+            if link not in self.symbols.record.links:
+                continue
+            own = self.placed.links[link]
+            first, *others = self.joints(link)
+            for other in others:
+                line = self._line(direction, own, link, first, other)
+                if line is not None:
+                    yield line
+        yield from self._slides(direction)
+
+    def _slides(self, direction: UnknownDirection) -> Iterator[LinkLine]:
+        """The axes of sliders on links that turn, across the axis of these."""
+        for joint in self.symbols.record.joints.values():
+            own = self.placed.links[joint.parent]
+            if joint.type.slides and joint.parent in direction.links and own.axis is not None and own.rod is None:
+                along = apply(own.constant, self.symbols.geometry.joints[joint.name].axes[0])
+                yield from self._turned(direction, own.axis, along, (joint.name, joint.name))
+
+    def joints(self, link: str) -> list[Joint]:
+        """The joints of a link, in the file's order."""
+        return [joint for joint in self.symbols.record.joints.values() if link in (joint.parent, joint.child)]
+
+    def _line(
+        self, direction: UnknownDirection, own: Orientation, link: str, first: Joint, other: Joint
+    ) -> LinkLine | None:
+        apart = subtract(point_on(self.symbols, other, link), point_on(self.symbols, first, link))
+        whole = apply(own.constant, apart) if own.constant is not UNTURNED else apart
+        names = first.name, other.name
+        if own.rod is not None:
+            x, y, z = direction.unknowns
+            reach = sympy.simplify(dot(own.line or (0, 0, 0), whole))
+            return LinkLine(direction, (x, y, z), None, own.line or (0, 0, 0), reach, names) if reach != 0 else None
+        if own.axis is None:
+            return None
+        return next(self._turned(direction, own.axis, whole, names), None)
+
+    def _turned(
+        self, direction: UnknownDirection, axis: Vector, whole: Vector, names: tuple[str, str]
+    ) -> Iterator[LinkLine]:
+        """What of a vector lies across the axis about which it turns, if any does."""
+        across = self.exact.tidied(subtract(whole, scaled(axis, dot(axis, whole))))
+        if any(across):
+            still = self.exact.unit(across)
+            cosine, sine = direction.unknowns[:2] if direction.kind == "circle" else self._angle(direction)
+            turned = add(scaled(still, cosine), scaled(self.exact.tidied(cross(axis, still)), sine))
+            yield LinkLine(direction, turned, axis, still, sympy.simplify(dot(still, across)), names)
+
+    def _angle(self, direction: UnknownDirection) -> tuple[sympy.Symbol, sympy.Symbol]:
+        """Cosine and sine of a direction for which the components of a vector are solved."""
+        own = next(own for own in self.loops.directions if own.links == direction.links)
+        return own.unknowns[0], own.unknowns[1]
+
+    def name(self, direction: UnknownDirection) -> NamedLink:
+        """How the links of a direction are called: as the parallelogram that they are, or by the first of them."""
+        for group in self.symbols.record.generalised.values():
+            members = {
+                link
+                for name in group.joints
+                for link in (self.symbols.record.joints[name].parent, self.symbols.record.joints[name].child)
+            }
+            if {*direction.links} == members - {group.parent, group.child}:
+                return NamedLink(group.name, parallelogram=True)
+        return NamedLink(next((link for link in direction.links if link in self.symbols.record.links), direction.name))
+
+    def named(self, vector: Vector) -> NamedDirection | NamedJoint | None:
+        """A direction of dimensions alone: along an axis of the base, along that of a joint, or by components."""
+        for k in range(3):
+            base: list[int] = [0, 0, 0]
+            base[k] = 1
+            if self.exact.along(vector, (base[0], base[1], base[2])):
+                return NamedDirection((base[0], base[1], base[2]))
+        for name, axis in self.fixed_axes.items():
+            if self.exact.along(vector, axis):
+                return NamedJoint(name)
+        parts = [sympy.sympify(part) for part in vector]
+        if {symbol for part in parts for symbol in part.free_symbols} - {*self.symbols.parameters.values()}:
+            return None
+        x, y, z = self.exact.upright(self.exact.unit((parts[0], parts[1], parts[2])))
+        return NamedDirection((x, y, z))
+
+    @cached_property
+    def fixed_axes(self) -> Mapping[str, Vector]:
+        """Joint -> its axis in the base, where that stands still; of joints of several axes the first."""
+        axes: dict[str, Vector] = {}
+        for name, joint in self.symbols.record.joints.items():
+            own = self.placed.links[joint.parent]
+            written = self.symbols.geometry.joints[name].axes
+            if own.axis is None and own.rod is None and len(written) > 0:
+                axes[name] = self.exact.tidied(apply(own.constant, written[0]))
+        return axes
+
+    def centre(self, direction: UnknownDirection, inside: Sequence[UnknownDirection], known: set[str]) -> str | None:
+        """A joint at which the links of a direction hang on a link that no direction of the set has, a known one first.
+
+        Args:
+            direction: of whose links.
+            inside: the directions of the set.
+            known: links whose place is known.
+        """
+        moving = {link for own in inside for link in own.links}
+        own = [(joint, link) for link in direction.links for joint in self.joints(link)]
+        ends = [(joint.name, joint.parent if joint.child == link else joint.child) for joint, link in own]
+        ends = [(name, other) for name, other in ends if other not in moving]
+        return next((name for name, other in ends if other in known), ends[0][0] if ends else None)
