@@ -29,6 +29,7 @@ class ConstraintReason:
         link, carrier: the two links.
         first, second: the directions.
         first_joints, second_joints: the joints of both chains.
+        constant: the orientation of the link against the carrier.
     """
 
     link: str
@@ -37,6 +38,7 @@ class ConstraintReason:
     second: Vector
     first_joints: tuple[str, ...]
     second_joints: tuple[str, ...]
+    constant: Matrix
 
 
 @dataclass(frozen=True)
@@ -201,7 +203,7 @@ class _Reading:
                 if len(ways) > 1:
                     first, second = ways[:2]
                     after = self._meeting(first, second, body)
-                    reason = ConstraintReason(body, root, first.axis, second.axis, first.joints, second.joints)
+                    reason = ConstraintReason(body, root, first.axis, second.axis, first.joints, second.joints, after)
                     return RigidPair(root, body, after, ()), reason
         return None
 

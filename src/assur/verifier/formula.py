@@ -11,7 +11,8 @@ from typing import Any, Protocol
 
 PI, RADIAN = "pi", "rad"
 LONGEST = 1000
-TOKEN = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[A-Za-z_][\w']*|[-+*/()])", re.ASCII)
+MOST_POWER = 64
+TOKEN = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[A-Za-z_][\w']*|\*\*|[-+*/()])", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -68,8 +69,8 @@ class FloatNumbers:
         return math.cos(turn), math.sin(turn)
 
 
-def value(text: Any, names: Mapping[str, Any], numbers: NumberType) -> Any:
-    """A formula, or a number of the file: a rational, a number of the type, or an angle.
+def value(text: Any, names: Mapping[str, Any], numbers: NumberType, longest: int = LONGEST) -> Any:
+    """A formula of so many letters at most, or a number of the file: a rational, a number of the type, or an angle.
 
     Errors:
         ValueError: no formula, or one of angles and numbers that cannot be.
@@ -77,7 +78,7 @@ def value(text: Any, names: Mapping[str, Any], numbers: NumberType) -> Any:
     """
     if isinstance(text, (int, Fraction)) and not isinstance(text, bool):
         return Fraction(text)
-    if not isinstance(text, str) or len(text) > LONGEST:
+    if not isinstance(text, str) or len(text) > longest:
         raise ValueError(f"{str(text)[:40]!r} is no formula")
     return _Reader(text, names, numbers).whole()
 
@@ -129,9 +130,25 @@ class _Reader:
         return result
 
     def _factor(self) -> Any:
-        token = self.tokens.pop()
-        if token == "-":
+        if self.tokens[-1] == "-":
+            self.tokens.pop()
             return self._joined("*", self._factor(), Fraction(-1))
+        base = self._atom()
+        if self.tokens[-1] != "**":
+            return base
+        self.tokens.pop()
+        exponent = self._factor()
+        if not isinstance(exponent, Fraction) or exponent.denominator > 2 or not 0 < abs(exponent) <= MOST_POWER:
+            raise ValueError("a power that is neither a small integer nor half of one")
+        if exponent.denominator == 2:
+            base = self.numbers.root(base if isinstance(base, Fraction) else plain(base, self.numbers))
+        power = base
+        for _ in range(abs(exponent.numerator) - 1):
+            power = self._joined("*", power, base)
+        return power if exponent > 0 else self._joined("/", Fraction(1), power)
+
+    def _atom(self) -> Any:
+        token = self.tokens.pop()
         if token == "(":
             result = self._sum()
             if self.tokens.pop() != ")":
@@ -140,24 +157,21 @@ class _Reader:
         if token in ("sqrt", "cos", "sin"):
             if self.tokens[-1] != "(":
                 raise ValueError(f"{token} of nothing")
-            return self._function(token, self._factor())
+            return self._function(token, self._atom())
         if token[:1].isdigit() or token[:1] == ".":
             units = {"deg": AngleSum({PI: Fraction(1, 180)}), "rad": AngleSum({RADIAN: Fraction(1)})}
             unit = units.get(self.tokens[-1])
             return unit.times(Fraction(token)) if unit and self.tokens.pop() else Fraction(token)
-        if not token or token in "+*/)":
+        if not token or token in "+-**/)":
             raise ValueError("a formula that lacks a number")
         return AngleSum({PI: Fraction(1)}) if token == "pi" else self.names[token]
 
     def _function(self, name: str, argument: Any) -> Any:
         if name == "sqrt":
-            return self.numbers.root(self._number(argument))
+            return self.numbers.root(argument if isinstance(argument, Fraction) else plain(argument, self.numbers))
         if not isinstance(argument, AngleSum):
             raise ValueError(f"{name} of a plain number")
         return self.numbers.circle(argument)[name == "sin"]
-
-    def _number(self, operand: Any) -> Any:
-        return plain(operand, self.numbers)
 
     def _joined(self, sign: str, a: Any, b: Any) -> Any:
         return joined(sign, a, b, self.numbers)

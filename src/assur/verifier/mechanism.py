@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -50,6 +50,26 @@ class FileJoint:
 
 
 @dataclass(frozen=True)
+class FileInput:
+    """How an input is printed: its value is the sense times that of its coordinate, plus the offset as written."""
+
+    name: str
+    sense: int
+    offset: Any
+
+
+@dataclass(frozen=True)
+class FileParallelogram:
+    """Four joints between two links and two rods, of a kind such as `P(4R)`, that are taken to stay a parallelogram."""
+
+    name: str
+    kind: str
+    joints: tuple[str, ...]
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True)
 class FileMechanism:
     """What a file says of the joint graph.
 
@@ -60,6 +80,8 @@ class FileMechanism:
         inputs: (joint, coordinate) each.
         positive: parameters that may be nothing else.
         degrees: whether plain numbers that are angles are in degrees.
+        printed: how each input is printed, in their order.
+        parallelograms: what the file says acts as one joint.
     """
 
     parameters: Mapping[str, tuple[Any, str]]
@@ -71,6 +93,8 @@ class FileMechanism:
     inputs: tuple[tuple[str, str], ...]
     degrees: bool
     positive: frozenset[str] = frozenset()
+    printed: tuple[FileInput, ...] = ()
+    parallelograms: tuple[FileParallelogram, ...] = ()
 
     def angle(self, written: Any, names: Mapping[str, Any], numbers: NumberType) -> AngleSum:
         """An angle of the file; a plain number is in the file's unit."""
@@ -116,22 +140,34 @@ def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMech
     written = {name: new.get(name, entry["value"]) for name, entry in data.get("parameters", {}).items()}
     parts: dict[str, FileJoint] = {}
     inputs: list[tuple[str, str]] = []
+    printed: dict[str, FileInput] = {}
+    parallelograms: list[FileParallelogram] = []
     aliases: dict[str, str] = {}
     known = set(data.get("links", {}))
-    for prefix, limb, tables in _parts(data):
-        own = {*tables.get("links", {}), *tables.get("joints", {})}
-        full = {name: f"{prefix}{name}" for name in own}
+    for prefix, limb, number, tables in _parts(data):
+        local = {*tables.get("links", {}), *tables.get("joints", {})}
+        full = {name: f"{prefix}{name}" for name in local}
         known.update(full.values())
         for name, entry in tables.get("joints", {}).items():
             parts[f"{prefix}{name}"] = _joint(entry, full, limb)
             if "alias" in entry:
                 aliases[f"{prefix}{entry['alias']}"] = f"{prefix}{name}"
-        inputs += [(prefix, name) for name in tables.get("inputs", {}) if name != "order"]
+        driven = {name: entry for name, entry in tables.get("inputs", {}).items() if name != "order"}
+        inputs += [(prefix, name) for name in driven]
+        for name, entry in driven.items():
+            own = FileInput(f"{entry['name']}{number or ''}", entry.get("sign", 1), entry.get("offset", 0))
+            printed[f"{prefix}{name}"] = own
+        for name, entry in tables.get("generalised", {}).items():
+            stands = (full.get(entry["stands_for"][end], entry["stands_for"][end]) for end in ("parent", "child"))
+            joints = (full.get(joint, f"{prefix}{joint}") for joint in entry["joints"])
+            parallelograms.append(FileParallelogram(f"{prefix}{name}", entry["kind"], tuple(joints), *stands))
     if len(parts) > MOST or not all({joint.parent, joint.child} <= known for joint in parts.values()):
         raise ValueError("joints of links that are not there, or too many")
     base, platform = data["base"], data["platform"]
     order = data.get("inputs", {}).get("order")
     named = [("", name) for name in order] if order else inputs
+    ways = {_coordinate(name, parts, aliases): own for name, own in printed.items()}
+    driven_ones = tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named)
     return FileMechanism(
         {name: (written[name], unit if unit in ("deg", "rad") else "") for name, unit in units.items()},
         parts,
@@ -139,21 +175,23 @@ def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMech
         platform["link"],
         tuple(platform.get("point", (0, 0, 0))),
         tuple(platform["pose"]),
-        tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named),
+        driven_ones,
         data["angle"] == "deg",
         frozenset(n for n, entry in data.get("parameters", {}).items() if entry.get("sign", "positive") == "positive"),
+        tuple(ways[own] for own in driven_ones),
+        tuple(replace(own, joints=tuple(aliases.get(j, j) for j in own.joints)) for own in parallelograms),
     )
 
 
-def _parts(data: Mapping[str, Any]) -> list[tuple[str, FileLimb | None, Mapping[str, Any]]]:
-    """The prefix of names, the turn and the tables of what stands outside limbs, and of each limb."""
-    result: list[tuple[str, FileLimb | None, Mapping[str, Any]]] = [("", None, data)]
+def _parts(data: Mapping[str, Any]) -> list[tuple[str, FileLimb | None, int, Mapping[str, Any]]]:
+    """The prefix of names, the turn, the number and the tables of what stands outside limbs, and of each limb."""
+    result: list[tuple[str, FileLimb | None, int, Mapping[str, Any]]] = [("", None, 0, data)]
     for name, tables in data.get("limbs", {}).items():
         repeat = tables["repeat"]
         count = repeat.get("count", 0)
         angles = repeat.get("angles") or [f"2*pi*{k}/{count}" for k in range(count)]
         limbs = [FileLimb(_axis(repeat["about"]), angle) for angle in angles]
-        result += [(f"{name}{k}.", limb, tables) for k, limb in enumerate(limbs, 1)]
+        result += [(f"{name}{k}.", limb, k, tables) for k, limb in enumerate(limbs, 1)]
     return result
 
 

@@ -46,6 +46,70 @@ class DerivedSet:
     roots: int
 
 
+Multiples = Mapping[str, str]
+"""Name of an equation -> the formula by which it is multiplied."""
+
+
+@dataclass(frozen=True)
+class ProvedOrientation:
+    """How a link may be turned: not at all, on a circle about an axis, or along a rod's direction.
+
+    It turns by `constant`, by cosine and sine of `circle` about `axis`. Of a rod `line` is its direction, after
+    `constant`, and `hinge` one across it, that turns with the circle; it is along the unit vector `rod`.
+    """
+
+    link: str
+    kind: str
+    constant: tuple[tuple[str, ...], ...]
+    axis: tuple[str, ...] | None
+    circle: tuple[str, ...] | None
+    hinge: tuple[str, ...] | None
+    line: tuple[str, ...] | None
+    rod: tuple[str, ...] | None
+
+
+@dataclass(frozen=True)
+class ProvedReason:
+    """A link hangs on its carrier by axes along `first` and along `second`; so it is turned by `constant` alone."""
+
+    link: str
+    carrier: str
+    first: tuple[str, ...]
+    second: tuple[str, ...]
+    constant: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
+class ProvedSet:
+    """Of a set why its equations hold, its lines, and its formulas: each a sum of multiples of equations.
+
+    `equations` are sums of loop equations; `lines` of `e1` .. and of squares `unit <link>`; what a symbol is less its
+    formula, and the square of a root less its radicand, of these and of lines `l1` .., its quantity for a root.
+    """
+
+    equations: tuple[Multiples, ...]
+    lines: tuple[Multiples, ...]
+    formulas: Mapping[str, Multiples]
+
+
+@dataclass(frozen=True)
+class DerivationProof:
+    """What `assur verify` checks of a derivation.
+
+    `vectors` are components of lengths along directions that turn; `units` are squares that are 1; `loops` vanish.
+    """
+
+    orientations: tuple[ProvedOrientation, ...]
+    reasons: tuple[ProvedReason, ...]
+    sliding: Mapping[str, str]
+    vectors: Mapping[str, str]
+    units: Mapping[str, str]
+    loops: Mapping[str, str]
+    sets: tuple[ProvedSet, ...]
+    lengths: Mapping[str, Multiples]
+    nonzero: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class DerivedProblem:
     """The direct or the inverse problem.

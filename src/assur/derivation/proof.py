@@ -1,0 +1,148 @@
+"""A derivation that somebody else can check: what is assumed, loop equations, and an identity for each step, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
+from typing import Any
+
+import sympy
+
+from assur.derivation.elimination import SolvedSet
+from assur.derivation.identities import LinearSpan, Multipliers, set_identities, unit
+from assur.derivation.linear import Form, form_of, never_zero, value_of
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.orientations import Orientation
+from assur.derivation.solution import AnalyticSolution
+from assur.derivation.strokes import StrokeVector, stroke_vectors
+from assur.joints.steps import UNTURNED
+from assur.results.answers.derivation import (
+    DerivationProof,
+    ProvedOrientation,
+    ProvedReason,
+    ProvedSet,
+)
+
+
+def proof(solution: AnalyticSolution) -> DerivationProof:
+    """The identities of a solution. Errors: NoIdentityError.
+
+    >>> from assur.derivation.solution import analytic_solution
+    >>> from assur.model.registry import load_record
+    >>> own = proof(analytic_solution(load_record("fivebar"), "direct"))
+    >>> own.loops["loop1"], own.sets[0].equations[0]
+    """
+    return _Proof(solution).whole()
+
+
+class _Proof:
+    def __init__(self, solution: AnalyticSolution) -> None:
+        self.solution, self.loops, self.witness = solution, solution.loops, solution.symbols.witness
+        self.vectors, forms = stroke_vectors(self.loops.forms, self.loops.strokes, self.witness)
+        self.names = [f"loop{k}" for k in range(1, len(forms) + 1)]
+        self.rows = dict(sorted(zip(self.names, forms, strict=True), key=lambda row: len(row[1])))
+        instead = {vector.circle: vector.direction for vector in self.vectors}
+        self.directions = [instead.get(own, own) for own in self.loops.directions]
+        self.fixed = [length for length in self.loops.lengths.values() if length not in self.loops.strokes]
+
+    def whole(self) -> DerivationProof:
+        sets = [self._set(k, part) for k, part in enumerate(self.solution.sets)]
+        lengths = self._lengths()
+        loops = {name: str(value_of(form)) for name, form in zip(self.names, self.loops.forms, strict=True)}
+        return DerivationProof(
+            tuple(self._orientations()),
+            tuple(self._reasons()),
+            self._named_lengths(),
+            {str(own): str(formula) for vector in self.vectors for own, formula in _components(vector)},
+            {unit(own): str(own.quadric) for own in self.loops.directions},
+            loops,
+            tuple(sets),
+            lengths,
+            tuple(self._divisors(sets, lengths)),
+        )
+
+    def _set(self, k: int, part: SolvedSet) -> ProvedSet:
+        done = {own for before in self.solution.sets[:k] for direction in before.directions for own in direction.unknowns}
+        left = [own for direction in self.directions for own in direction.unknowns if own not in done]
+        rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
+        own = set_identities(part, LinearSpan(rows, left, self.witness, self.fixed), self.vectors, self.witness)
+        return ProvedSet(
+            tuple(map(_texts, own.equations)),
+            tuple(map(_texts, own.lines)),
+            {str(symbol): _texts(shares) for symbol, shares in own.formulas.items()},
+        )
+
+    def _within(self, form: Form, unknowns: Sequence[sympy.Symbol]) -> Form:
+        """A form in which everything else is known."""
+        if form.keys() <= {*unknowns, sympy.Integer(1)}:
+            return form
+        return form_of(value_of(form), unknowns, self.witness)
+
+    def _lengths(self) -> dict[str, Mapping[str, str]]:
+        unknowns = [*self.fixed, *(own for direction in self.directions for own in direction.unknowns)]
+        span = LinearSpan(self.rows, unknowns, self.witness, self.fixed)
+        return {
+            str(own.symbol): _texts(span.multipliers(form_of(own.symbol - own.formula, unknowns, self.witness)))
+            for own in self.solution.lengths
+        }
+
+    def _orientations(self) -> Iterator[ProvedOrientation]:
+        used = {link: own for own in self.loops.directions for link in own.links if own.kind == "circle"}
+        rods = {link: own for own in self.loops.directions for link in own.links if own.kind == "rod"}
+        circles: dict[int, UnknownDirection] = {}
+        placed = self.solution.placed.links
+        for link, own in placed.items():
+            if link in used and own.circle is not None:
+                circles[own.circle] = used[link]
+        for link, own in placed.items():
+            circle = circles.get(own.circle) if own.circle is not None else None
+            yield _orientation(link, own, circle, rods.get(link))
+
+    def _reasons(self) -> Iterator[ProvedReason]:
+        for own in self.solution.placed.reasons:
+            yield ProvedReason(own.link, own.carrier, _vector(own.first), _vector(own.second), _matrix(own.constant))
+
+    def _named_lengths(self) -> dict[str, str]:
+        coordinates = self.solution.symbols.record.coordinates
+        return {
+            f"{coordinates[index].joint}.{coordinates[index].component}": str(symbol)
+            for index, symbol in self.loops.lengths.items()
+        }
+
+    def _divisors(self, sets: Iterable[ProvedSet], lengths: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
+        """What multipliers are divided by, beside what the sets say must not vanish."""
+        yield from ()
+
+
+def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
+    (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
+    reach = vector.length + vector.along
+    yield x, reach * cosine - vector.beside * sine
+    yield y, reach * sine + vector.beside * cosine
+
+
+def _orientation(
+    link: str, own: Orientation, circle: UnknownDirection | None, rod: UnknownDirection | None
+) -> ProvedOrientation:
+    unknowns = tuple(str(part) for direction in (circle, rod) if direction for part in direction.unknowns)
+    kind = "rod" if own.rod is not None else "circle" if own.circle is not None else "fixed"
+    return ProvedOrientation(
+        link, kind, _matrix(own.constant),
+        None if own.axis is None else _vector(own.axis),
+        None if circle is None else tuple(map(str, circle.unknowns)),
+        None if own.hinge is None else _vector(own.hinge),
+        None if own.line is None else _vector(own.line),
+        None if rod is None else tuple(map(str, rod.unknowns)),
+    )  # fmt: skip
+
+
+def _vector(parts: Sequence[Any]) -> tuple[str, ...]:
+    return tuple(str(part) for part in parts)
+
+
+def _matrix(rows: Sequence[Sequence[Any]]) -> tuple[tuple[str, ...], ...]:
+    return tuple(map(_vector, rows))
+
+
+def _texts(shares: Multipliers) -> dict[str, str]:
+    return {name: str(share) for name, share in shares.items() if share != 0}

@@ -1,0 +1,142 @@
+"""Loops of a mechanism file over any number type, where the orientation of each link is given in place of joint values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from assur.verifier.field import NoExactError
+from assur.verifier.formula import NumberType, number
+from assur.verifier.graph import ONE, STEPS, ZERO, Graph, Matrix, Vector, about, add, plus, product, scaled, subtract, times
+from assur.verifier.mechanism import COORDINATES, FileMechanism
+from assur.verifier.turning import ClaimedTurn, Hop, IsZero, hops, point
+
+ANGLES = ("phi", "theta", "psi")
+LENGTHS = ("x", "y", "z")
+
+
+def given_names(mechanism: FileMechanism, problem: str) -> tuple[list[str], list[str]]:
+    """Names of lengths and of angles that are given: inputs, or coordinates of the pose.
+
+    Errors:
+        NoExactError: a pose by a quaternion.
+    """
+    if problem == "inverse":
+        if not {*mechanism.pose} <= {*LENGTHS, *ANGLES}:
+            raise NoExactError("a pose with a quaternion")
+        return [own for own in mechanism.pose if own in LENGTHS], [own for own in mechanism.pose if own in ANGLES]
+    kinds = [kind_of(mechanism, *own) for own in mechanism.inputs]
+    lengths = [own.name for own, kind in zip(mechanism.printed, kinds, strict=True) if kind == "slide"]
+    return lengths, [own.name for own, kind in zip(mechanism.printed, kinds, strict=True) if kind != "slide"]
+
+
+def kind_of(mechanism: FileMechanism, joint: str, component: str) -> str:
+    """What a coordinate of a joint is: a slide or a turn."""
+    own = mechanism.joints[joint].type
+    return STEPS[own][COORDINATES[own].index(component)][0]
+
+
+class Assembly:
+    """The joint graph with what is given of it.
+
+    Args:
+        mechanism: as its file has it.
+        problem: "direct" or "inverse".
+        numbers: the number type.
+        names: values of the parameters.
+        given: lengths by their names, angles as `cos_<name>` and `sin_<name>`.
+        zero: whether a number vanishes.
+
+    Attributes:
+        hops: what is said of orientations.
+        sliding: "joint.coordinate" -> a length that is given.
+    """
+
+    def __init__(
+        self,
+        mechanism: FileMechanism,
+        problem: str,
+        numbers: NumberType,
+        names: Mapping[str, Any],
+        given: Mapping[str, Any],
+        zero: IsZero,
+    ) -> None:
+        self.graph, self.problem, self.given, self.zero = Graph(mechanism, numbers, names), problem, given, zero
+        self.mechanism, self.sliding = mechanism, dict[str, Any]()
+        locked: dict[str, tuple[Any, Any]] = {}
+        for (joint, component), own in zip(mechanism.inputs, mechanism.printed, strict=True):
+            if problem == "inverse":
+                continue
+            if kind_of(mechanism, joint, component) == "slide":
+                offset = number(own.offset, names, numbers)
+                self.sliding[f"{joint}.{component}"] = times(own.sense, plus(given[own.name], times(-1, offset)))
+                continue
+            place = COORDINATES[mechanism.joints[joint].type].index(component)
+            cosine, sine = given[f"cos_{own.name}"], given[f"sin_{own.name}"]
+            if own.offset not in (0, "0"):
+                c, s = numbers.circle(mechanism.angle(own.offset, names, numbers))
+                cosine, sine = cosine * c + sine * s, sine * c - cosine * s
+            locked[f"{joint} {place}"] = cosine, times(own.sense, sine)
+        self.hops = [*hops(self.graph, locked)]
+        if problem == "inverse" and {*ANGLES} & {*mechanism.pose}:
+            self.hops.append(Hop(mechanism.base, mechanism.platform, self._orientation()))
+
+    def _orientation(self) -> Matrix:
+        turn = ONE
+        for name, axis in zip(ANGLES, reversed(ONE), strict=True):
+            if name in self.mechanism.pose:
+                turn = product(turn, about(axis, self.given[f"cos_{name}"], self.given[f"sin_{name}"]))
+        return turn
+
+    def slides(self) -> list[str]:
+        """Lengths that are sought, as "joint.coordinate"."""
+        every = (
+            f"{name}.{COORDINATES[joint.type][place]}"
+            for name, joint in self.mechanism.joints.items()
+            for place, (kind, _) in enumerate(STEPS[joint.type])
+            if kind == "slide"
+        )
+        return [name for name in every if name not in self.sliding]
+
+    def loops(
+        self, turns: Mapping[str, ClaimedTurn], values: Mapping[str, Any], sliding: Mapping[str, Any]
+    ) -> tuple[list[Any], Vector]:
+        """What vanishes where all loops close and the platform is at its pose; and the platform's point.
+
+        Args:
+            turns: link -> its orientation.
+            values: unknowns of orientations, and what is given.
+            sliding: "joint.coordinate" -> a length that is sought.
+        """
+        lengths = {**self.sliding, **sliding}
+
+        def place(link: str, vector: Vector) -> Vector:
+            known, reached = placed[link]
+            return add(reached, turns[link].image(subtract(vector, known), values, self.zero))
+
+        def slid(name: str) -> Vector:
+            joint, total = self.mechanism.joints[name], ZERO
+            for step, (kind, direction) in enumerate(STEPS[joint.type]):
+                if kind == "slide":
+                    axis = self.graph.joints[name].axes[direction]
+                    along = turns[joint.parent].image(axis, values, self.zero)
+                    total = add(total, scaled(along, lengths[f"{name}.{COORDINATES[joint.type][step]}"]))
+            return total
+
+        placed: dict[str, tuple[Vector, Vector]] = {self.mechanism.base: (ZERO, ZERO)}
+        gaps: list[Any] = []
+        for name, forward in self.graph.tree:
+            joint = self.mechanism.joints[name]
+            near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+            end = add(place(near, point(self.graph, name, near)), scaled(slid(name), 1 if forward else -1))
+            placed[far] = point(self.graph, name, far), end
+        for name in self.graph.cut:
+            joint = self.mechanism.joints[name]
+            start = add(place(joint.parent, point(self.graph, name, joint.parent)), slid(name))
+            gaps += subtract(start, place(joint.child, point(self.graph, name, joint.child)))
+        platform = place(self.mechanism.platform, self.graph.point)
+        if self.problem == "inverse":
+            for name in self.mechanism.pose:
+                if name in LENGTHS:
+                    gaps.append(plus(platform[LENGTHS.index(name)], times(-1, self.given[name])))
+        return gaps, platform

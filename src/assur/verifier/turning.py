@@ -1,0 +1,202 @@
+"""How links may be turned: what joints, and parallelograms that stay such, say of their orientations alone.
+
+A hop from link to link is rigid, R_b = R_a C, or turns about an axis of the first, R_b = R_a Rot(axis, q) C. Links that
+are reached from another by hops about parallel axes turn about one direction against it. One that is reached so along
+two directions does not turn against it, since no turn about one direction is one about another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from assur.verifier.field import NoExactError
+from assur.verifier.graph import (
+    ONE,
+    STEPS,
+    Graph,
+    Matrix,
+    Vector,
+    about,
+    apply,
+    cross,
+    dot,
+    plus,
+    product,
+    subtract,
+    times,
+    transposed,
+)
+from assur.verifier.mechanism import FileMechanism, FileParallelogram
+from assur.verifier.reading import RefusedError
+
+Circle = tuple[Any, Any]
+IsZero = Callable[[Any], bool]
+
+
+@dataclass(frozen=True)
+class Hop:
+    """R_end = R_start Rot(axis, q) after; rigid where there is no axis."""
+
+    start: str
+    end: str
+    after: Matrix
+    axis: Vector | None = None
+
+
+def hops(graph: Graph, locked: Mapping[str, Circle]) -> Iterator[Hop]:
+    """Of all joints, those at angles that are given rigid, and of parallelograms.
+
+    Args:
+        graph: the joint graph.
+        locked: "joint coordinate" -> cosine and sine of an angle that is given.
+    """
+    mechanism = graph.mechanism
+    for name, joint in mechanism.joints.items():
+        own = graph.joints[name]
+        turning = [(place, kind, axis) for place, (kind, axis) in enumerate(STEPS[joint.type]) if kind != "slide"]
+        if not turning:
+            yield Hop(joint.parent, joint.child, own.turn)
+        links = (joint.parent, *[f"{name}'s cross"] * (len(turning) - 1), joint.child)
+        for k, (place, kind, direction) in enumerate(turning):
+            after = own.turn if k == len(turning) - 1 else ONE
+            if kind == "screw":
+                raise NoExactError(f"{name} is a screw, whose angle and length belong together")
+            if kind != "turn":
+                continue
+            axis, given = own.axes[direction], locked.get(f"{name} {place}")
+            if given is None:
+                yield Hop(links[k], links[k + 1], after, axis)
+            else:
+                yield Hop(links[k], links[k + 1], product(about(axis, *given), after))
+    for group in mechanism.parallelograms:
+        yield from _kept(graph, group)
+
+
+def _kept(graph: Graph, group: FileParallelogram) -> Iterator[Hop]:
+    """What a parallelogram says that stays one."""
+    first, second = rods(graph.mechanism, group)
+    if group.kind == "P(4R)":
+        yield Hop(group.parent, group.child, ONE)
+        yield Hop(first, second, ONE)
+    elif group.kind in ("P(4S)", "P(2US)"):
+        near, far = (point(graph, name, group.parent) for name in group.joints if group.parent in ends(graph, name))
+        yield Hop(group.parent, group.child, ONE, subtract(far, near))
+        if group.kind == "P(2US)":
+            yield Hop(first, second, ONE)
+
+
+def rods(mechanism: FileMechanism, group: FileParallelogram) -> tuple[str, str]:
+    """The two rods of a parallelogram."""
+    links = {link for name in group.joints for link in (mechanism.joints[name].parent, mechanism.joints[name].child)}
+    first, second = sorted(links - {group.parent, group.child})
+    return first, second
+
+
+def ends(graph: Graph, joint: str) -> tuple[str, str]:
+    """Both links of a joint."""
+    own = graph.mechanism.joints[joint]
+    return own.parent, own.child
+
+
+def point(graph: Graph, joint: str, link: str) -> Vector:
+    """A joint's point in one of its links."""
+    own = graph.joints[joint]
+    return own.at if graph.mechanism.joints[joint].parent == link else own.child_at
+
+
+def reached(
+    all_hops: Sequence[Hop], root: str, axis: Vector | None, zero: IsZero, tidy: Callable[[Matrix], Matrix]
+) -> dict[str, Matrix]:
+    """Links that hang on a root by rigid hops, and by ones about one direction of it; their C of Rot(axis, psi) C."""
+    result: dict[str, Matrix] = {root: ONE}
+    for link in (waiting := [root]):
+        for hop in all_hops:
+            if link not in (hop.start, hop.end):
+                continue
+            other = hop.end if link == hop.start else hop.start
+            if other in result:
+                continue
+            own = result[link] if link == hop.start else product(result[link], transposed(hop.after))
+            if hop.axis is not None and (
+                axis is None or not all(zero(part) for part in cross(apply(own, hop.axis), axis))
+            ):
+                continue
+            result[other] = tidy(product(own, hop.after) if link == hop.start else own)
+            waiting.append(other)
+    return result
+
+
+def is_rotation(turn: Matrix, zero: IsZero) -> bool:
+    """Whether a matrix is one: orthogonal, of determinant 1."""
+    a, b, c = turn
+    square = product(turn, transposed(turn))
+    gaps = [plus(x, times(-1, y)) for row, other in zip(square, ONE, strict=True) for x, y in zip(row, other, strict=True)]
+    return all(map(zero, [*gaps, plus(dot(a, cross(b, c)), -1)]))
+
+
+def fixes(turn: Matrix, axis: Vector, zero: IsZero) -> bool:
+    """Whether a vector stays where it is."""
+    return all(map(zero, subtract(apply(turn, axis), axis)))
+
+
+def same(first: Matrix, second: Matrix, zero: IsZero) -> bool:
+    """Whether two matrices are one."""
+    return all(
+        zero(plus(a, times(-1, b))) for x, y in zip(first, second, strict=True) for a, b in zip(x, y, strict=True)
+    )
+
+
+@dataclass(frozen=True)
+class ClaimedTurn:
+    """How a link is said to be turned; circle and rod by names of unknowns, all else as numbers of a type."""
+
+    link: str
+    kind: str
+    constant: Matrix
+    axis: Vector | None
+    circle: tuple[str, ...] | None
+    hinge: Vector | None
+    line: Vector | None
+    rod: tuple[str, ...] | None
+
+    def image(self, vector: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
+        """A vector of the link, in the base. Errors: RefusedError, of one that a rod does not have."""
+        own = apply(self.constant, vector)
+        if self.kind != "rod":
+            return self._turned(own, values, zero)
+        line, hinge, rod = self.line or (0, 0, 0), self.hinge or (0, 0, 0), self.rod or ()
+        share, beside = dot(line, own), dot(hinge, own)
+        if not all(zero(part) for part in subtract(own, _add(_scaled(line, share), _scaled(hinge, beside)))):
+            raise RefusedError(f"{self.link} has a point beside its line")
+        x, y, z = (values[name] for name in rod)
+        along = _scaled((x, y, z), share)
+        return along if zero(beside) else _add(along, _scaled(self._turned(hinge, values, zero), beside))
+
+    def _turned(self, own: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
+        if self.axis is None or all(map(zero, cross(self.axis, own))):
+            return own
+        if self.circle is None:
+            raise RefusedError(f"{self.link} turns, and by what is not said")
+        cosine, sine = (values[name] for name in self.circle)
+        return apply(about(self.axis, cosine, sine), own)
+
+    def rotation(self, values: Mapping[str, Any]) -> Matrix | None:
+        """The orientation, where it is said."""
+        if self.kind == "fixed" or self.axis is None:
+            return self.constant if self.kind == "fixed" else None
+        if self.kind != "circle" or self.circle is None:
+            return None
+        cosine, sine = (values[name] for name in self.circle)
+        return product(about(self.axis, cosine, sine), self.constant)
+
+
+def _add(a: Vector, b: Vector) -> Vector:
+    x, y, z = (plus(p, q) for p, q in zip(a, b, strict=True))
+    return x, y, z
+
+
+def _scaled(a: Vector, factor: Any) -> Vector:
+    x, y, z = (times(p, factor) for p in a)
+    return x, y, z
