@@ -13,7 +13,7 @@ from assur.results.answers.certificate import (
 from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
 from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
-from assur.results.answers.derivation import DerivationAnswer
+from assur.results.answers.derivation import DerivationAnswer, VerifiedDerivation
 from assur.results.answers.files import (
     EndedView,
     WrittenExport,
@@ -68,7 +68,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "sweep": (SweepAnswer,),
     "synthesize": (SynthesisAnswer,),
     "topology": (TopologyAnswer,),
-    "verify": (VerifiedCertificate, RefusedCertificate),
+    "verify": (VerifiedCertificate, VerifiedDerivation, RefusedCertificate),
     "view": (EndedView,),
     "workspace": (WorkspaceAnswer, CertifiedVolume, CertifiedBox, CertifiedShape),
 }

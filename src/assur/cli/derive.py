@@ -29,6 +29,9 @@ def derive(
         str | None,
         Parameter(name="--c", metavar="FILE", help="Write the closed form as C99, in one file."),
     ] = None,
+    prove: Annotated[
+        bool, Parameter(negative=(), help="Write an identity for each step into the data, which `assur verify` checks.")
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Derive the analytic solution of a mechanism from its joint graph.
@@ -46,15 +49,18 @@ def derive(
     against the joint graph. Exit codes: 0, square roots or one polynomial, and
     whether it is proved that no square roots would do; 5, a set of links
     resists, and is named. --latex writes what a paper prints: symbols, reasons,
-    set by set the equations and their solution, branches, an example.
+    set by set the equations and their solution, branches, an example. --prove
+    adds to --json why no branch is missing: each equation and each formula as a
+    sum of multiples of those before it, for `assur verify`.
 
     For example:
         assur derive zeng2019
         assur derive fivebar --problem direct
         assur derive zeng2019 --latex zeng2019.tex
         assur derive my.toml -o closed_form.py --c my.c
+        assur derive my.toml --prove --json > d.json
     """
     record = shared.mechanism(mechanism)
     from assur.cli import derive_answer
 
-    return derive_answer.outcome(record, problem, output, latex, c)
+    return derive_answer.outcome(record, problem, output, latex, c, prove)

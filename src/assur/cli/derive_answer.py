@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from rich.console import RenderableType
@@ -12,9 +13,11 @@ from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
 from assur.derivation.derivation import derive
+from assur.derivation.identities import NoIdentityError
 from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.phrases import direction
+from assur.derivation.proof import proof
 from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import AssurError, UsageError
@@ -26,7 +29,12 @@ from assur.results.files import write_whole
 
 
 def outcome(
-    record: Mechanism, problem: str, output: str | None, latex: str | None = None, c: str | None = None
+    record: Mechanism,
+    problem: str,
+    output: str | None,
+    latex: str | None = None,
+    c: str | None = None,
+    prove: bool = False,
 ) -> Outcome:
     """What was derived, as data and for a person; written where a file is named."""
     document = None if latex is None else output_file(latex, (".tex",))
@@ -41,6 +49,9 @@ def outcome(
     if document is not None:
         _write_document(document, record, parts)
     fine = fine and not not_written
+    if prove:
+        parts = tuple(_with_proof(record, part) for part in parts)
+        fine = fine and all(part.not_proved is ABSENT for part in parts)
     data = DerivationAnswer(
         record.name,
         parts,
@@ -112,6 +123,17 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
     )  # fmt: skip
 
 
+def _with_proof(record: Mechanism, part: DerivedProblem) -> DerivedProblem:
+    """A problem with an identity for each step; why there are none, where that is so."""
+    if part.status != "derived":
+        return part
+    names: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
+    try:
+        return replace(part, proof=proof(analytic_solution(record, names[part.problem])))
+    except NoIdentityError as error:
+        return replace(part, not_proved=str(error))
+
+
 def _reasons(solution: AnalyticSolution) -> Iterator[DerivedReason]:
     for text, own in zip(sentences(solution.placed), solution.placed.reasons, strict=True):
         axes = direction(own.first), direction(own.second)
@@ -140,6 +162,10 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
             proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
             yield f"{proved}, modulo a prime of 160 bits"
+            if part.not_proved is not ABSENT:
+                yield f"not proved that no branch is missing: {part.not_proved}"
+            if part.proof is not ABSENT:
+                yield "every step is an identity, in the data (--json): assur verify checks them"
             if part.proved:
                 yield f"proved by factors modulo primes: {part.proved}"
         else:

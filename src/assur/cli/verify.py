@@ -15,10 +15,11 @@ from assur.errors import UsageError
 
 if TYPE_CHECKING:
     from assur.model.mechanism import MechanismRecord
+    from assur.results.answers.derivation import VerifiedProblem
 
 
 def verify(
-    file: Annotated[str, Parameter(name="FILE", help="A certificate that `assur certify` wrote.")],
+    file: Annotated[str, Parameter(name="FILE", help="What `assur certify` or `assur derive --prove` wrote.")],
     /,
     *,
     mechanism: Annotated[
@@ -26,7 +27,7 @@ def verify(
     ] = None,
     shared: Plain = PLAIN,  # noqa: ARG001  # read by main
 ) -> Outcome:
-    """Check a certificate with the small verifier.
+    """Check a certificate, or a derivation, with the small verifier.
 
     A proof cuts the box into parts, and says of each that it is reached all
     over, not reached anywhere, or undecided. The verifier proves every part
@@ -34,6 +35,11 @@ def verify(
     made the file; how much is undecided is told. Then the formulas are recorded
     anew from the mechanism's files and compared, and held against the verifier's
     own joint graph of the mechanism's file, exactly: only then it is verified.
+
+    Of a derivation the verifier builds the loop equations from the mechanism's
+    file, checks that each step is an identity, exactly, and holds every branch
+    against its joint graph modulo a prime: so no branch is missing where the
+    conditions hold, which are told.
 
     The exit code is about the proof, not about what it answers. 0: it holds,
     also where it proves a no; 1: refused, a part or a claim does not hold or it
@@ -45,14 +51,18 @@ def verify(
     For example:
         assur verify cert.json
         assur verify cert.json --mechanism my_mechanism.toml
+        assur verify d.json --mechanism my_mechanism.toml
     """
     path = Path(file)
     from assur.results.reading import MOST_CERTIFICATE, file_content
     from assur.verifier.check import verify as checked
+    from assur.verifier.derivations.check import is_derivation
     from assur.verifier.reading import MalformedError, RefusedError
 
-    content = file_content(path, MOST_CERTIFICATE, "give a file of `assur certify`")
+    content = file_content(path, MOST_CERTIFICATE, "give a file of `assur certify` or `assur derive --prove`")
     start = time.perf_counter()
+    if is_derivation(content):
+        return _derivation(path, content, mechanism, start)
     try:
         document = checked(content)
     except MalformedError as error:
@@ -61,6 +71,41 @@ def verify(
         return _refused(path, str(error), exit_codes.FAILS)
     seconds = time.perf_counter() - start
     return _compared(path, document, mechanism, seconds)
+
+
+def _derivation(path: Path, content: bytes, name: str | None, start: float) -> Outcome:
+    """What is proved of a derivation, against the file of its mechanism."""
+    from assur.cli.output import heading
+    from assur.model.registry import file_of, names
+    from assur.results.answers.derivation import VerifiedDerivation, VerifiedProblem
+    from assur.verifier.derivations.check import problems_of, verify_derivation
+    from assur.verifier.reading import MalformedError, RefusedError
+
+    try:
+        whose, without = problems_of(content)
+        if name is None and whose not in names():
+            text = "the mechanism is not at hand, say with --mechanism where it is"
+            return _refused(path, text, exit_codes.UNDECIDED)
+        proved = verify_derivation(content, file_of(name or whose).read_text(encoding="utf-8"))
+    except MalformedError as error:
+        return _refused(path, str(error), exit_codes.BAD_FILE)
+    except RefusedError as error:
+        return _refused(path, str(error), exit_codes.FAILS)
+    problems = tuple(
+        VerifiedProblem(own.problem, own.branches, own.conditions, own.assumed, own.closed) for own in proved
+    )
+    answer = VerifiedDerivation(True, whose, problems, without, time.perf_counter() - start)
+    shown = [heading(f"verified: {path}"), *map(_proved, problems), *(f"{own}: not derived" for own in without)]
+    shown.append(f"identities checked exactly, with a joint graph of its own, in {answer.seconds:.2g} s")
+    return Outcome(answer, lambda: shown, exit_codes.FINE)
+
+
+def _proved(own: VerifiedProblem) -> str:
+    """A derivation that holds, in a sentence."""
+    where = " and ".join(own.conditions)
+    complete = f"complete where {where}" if where else "complete"
+    assumed = f"; {' and '.join(own.assumed)} taken to stay parallelograms" if own.assumed else ""
+    return f"{own.problem}: derivation verified: {own.branches} branches, {complete}{assumed}"
 
 
 def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, seconds: float) -> Outcome:

@@ -37,9 +37,9 @@ class LinearSpan:
         witness: tells what vanishes.
         lengths: unknowns along unit vectors, whose equations are projected on these first: then nothing is divided.
 
-    >>> x, y, a = sympy.symbols("x y a")
-    >>> span = LinearSpan({"e1": {x: a, y: ONE}, "e2": {y: ONE, ONE: -ONE}}, [x, y], ModularWitness())
-    >>> span.multipliers({x: a, ONE: ONE})
+    >>> x, y = sympy.symbols("x y")
+    >>> span = LinearSpan({"e1": {x: ONE, y: ONE}, "e2": {y: ONE, ONE: -ONE}}, [x, y], ModularWitness())
+    >>> span.multipliers({x: ONE, ONE: ONE})
     {'e1': 1, 'e2': -1}
     """
 
@@ -67,7 +67,9 @@ class LinearSpan:
                 rows = fewer
         tags = {sympy.Dummy(name): name for name in rows}
         tagged = [{**form, tag: -ONE} for tag, form in zip(tags, rows.values(), strict=True)]
-        lengths, left = projected(tagged, [own for own in self._lengths if any(own in form for form in tagged)], self._witness)
+        lengths, left = projected(
+            tagged, [own for own in self._lengths if any(own in form for form in tagged)], self._witness
+        )
         values, _ = solved(left, self._unknowns, self._witness)
         values = {length: replaced(form, values, self._witness) for length, form in lengths.items()} | values
         rest = replaced(target, values, self._witness)
@@ -193,7 +195,9 @@ class _SetOfRoots:
             return {unit(self.base): ONE}
         if self.base.kind == "circle":
             (form, shares), cosine, sine = self.planes[0], *self.base.unknowns
-            a, b, d = (self._short(part) for part in (form.get(cosine, ZERO), form.get(sine, ZERO), -form.get(ONE, ZERO)))
+            a, b, d = (
+                self._short(part) for part in (form.get(cosine, ZERO), form.get(sine, ZERO), -form.get(ONE, ZERO))
+            )
             return _sum({unit(self.base): a**2 + b**2}, _times(shares, -(a * cosine + b * sine + d)))
         (n, h), (m, k) = (self._plane(form) for form, _ in self.planes[:2])
         e, square = self.base.unknowns, self._across(n, m)[1]
@@ -216,9 +220,11 @@ class _SetOfRoots:
 
     def _unknown(self, unknown: sympy.Symbol, formula: sympy.Expr) -> Multipliers:
         """An unknown less its formula, which is linear in the unknowns."""
-        if unknown in self.base.unknowns and self.base.kind == "circle" and self.formulas[unknown].free_symbols & {
-            root.symbol for root in self.part.roots
-        }:
+        if (
+            unknown in self.base.unknowns
+            and self.base.kind == "circle"
+            and self.formulas[unknown].free_symbols & {root.symbol for root in self.part.roots}
+        ):
             return self._on_circle(unknown)
         if unknown in self.base.unknowns and self.base.kind == "rod":
             return self._on_sphere(unknown)
@@ -243,7 +249,9 @@ class _SetOfRoots:
         reach, (x, y) = vector.length + vector.along, vector.direction.unknowns
         name, size = unit(vector.circle), reach**2 + vector.beside**2
         root = next(own for own in self.part.roots if self.witness.is_zero(own.quantity - reach))
-        angle = {own: {name: own * size / (x**2 + y**2)} if vector.beside != 0 else {} for own in vector.circle.unknowns}
+        angle = {
+            own: {name: own * size / (x**2 + y**2)} if vector.beside != 0 else {} for own in vector.circle.unknowns
+        }
         return {root.symbol: {name: -size}, vector.length: {}} | angle
 
 

@@ -1,21 +1,19 @@
-"""A derivation that somebody else can check: what is assumed, loop equations, and an identity for each step, as text."""
+"""A derivation that somebody else can check: what is assumed, loop equations, an identity for each step."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy
 
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.identities import LinearSpan, Multipliers, set_identities, unit
-from assur.derivation.linear import Form, form_of, never_zero, value_of
+from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import Orientation
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.strokes import StrokeVector, stroke_vectors
-from assur.joints.steps import UNTURNED
 from assur.results.answers.derivation import (
     DerivationProof,
     ProvedOrientation,
@@ -30,7 +28,8 @@ def proof(solution: AnalyticSolution) -> DerivationProof:
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
     >>> own = proof(analytic_solution(load_record("fivebar"), "direct"))
-    >>> own.loops["loop1"], own.sets[0].equations[0]
+    >>> own.loops["loop2"], own.sets[0].equations[0]
+    ('l1*sin_theta1 - l1*sin_theta2 + l2*sin_rod1 - l2*sin_rod2', {'loop2': '1'})
     """
     return _Proof(solution).whole()
 
@@ -58,11 +57,12 @@ class _Proof:
             loops,
             tuple(sets),
             lengths,
-            tuple(self._divisors(sets, lengths)),
         )
 
     def _set(self, k: int, part: SolvedSet) -> ProvedSet:
-        done = {own for before in self.solution.sets[:k] for direction in before.directions for own in direction.unknowns}
+        done = {
+            own for before in self.solution.sets[:k] for direction in before.directions for own in direction.unknowns
+        }
         left = [own for direction in self.directions for own in direction.unknowns if own not in done]
         rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
         own = set_identities(part, LinearSpan(rows, left, self.witness, self.fixed), self.vectors, self.witness)
@@ -109,10 +109,6 @@ class _Proof:
             for index, symbol in self.loops.lengths.items()
         }
 
-    def _divisors(self, sets: Iterable[ProvedSet], lengths: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
-        """What multipliers are divided by, beside what the sets say must not vanish."""
-        yield from ()
-
 
 def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
     (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
@@ -124,7 +120,6 @@ def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr
 def _orientation(
     link: str, own: Orientation, circle: UnknownDirection | None, rod: UnknownDirection | None
 ) -> ProvedOrientation:
-    unknowns = tuple(str(part) for direction in (circle, rod) if direction for part in direction.unknowns)
     kind = "rod" if own.rod is not None else "circle" if own.circle is not None else "fixed"
     return ProvedOrientation(
         link, kind, _matrix(own.constant),

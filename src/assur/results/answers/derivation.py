@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from assur.results.answers.answer import ABSENT, Absent, Answer
 
@@ -107,7 +108,6 @@ class DerivationProof:
     loops: Mapping[str, str]
     sets: tuple[ProvedSet, ...]
     lengths: Mapping[str, Multiples]
-    nonzero: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,8 @@ class DerivedProblem:
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
-    parallelograms that stay such; `lengths` are found after the sets.
+    parallelograms that stay such; `lengths` are found after the sets. `proof` is there where it is asked for, or
+    `not_proved` says why it is not.
     """
 
     problem: str
@@ -130,11 +131,16 @@ class DerivedProblem:
     lengths: Mapping[str, str]
     results: Mapping[str, str]
     proved: str = ""
+    proof: DerivationProof | Absent = ABSENT
+    not_proved: str | Absent = ABSENT
 
 
 @dataclass(frozen=True)
 class DerivationAnswer(Answer):
-    """What was derived of a mechanism, problem by problem, and the files that were written, or why none was."""
+    """What was derived of a mechanism, problem by problem, and the files that were written, or why none was.
+
+    `format` and `version` are those that `assur verify` reads.
+    """
 
     mechanism: str
     problems: tuple[DerivedProblem, ...]
@@ -142,3 +148,30 @@ class DerivationAnswer(Answer):
     not_written: str | Absent = ABSENT
     latex: str | Absent = ABSENT
     c: str | Absent = ABSENT
+    format: str = "assur derivation"
+    version: int = 1
+
+
+@dataclass(frozen=True)
+class VerifiedProblem:
+    """What is proved of one problem: its branches, of which `closed` were held against the joint graph, and where.
+
+    They are all where `conditions` hold and the parallelograms `assumed` stay such.
+    """
+
+    problem: str
+    branches: int
+    conditions: tuple[str, ...]
+    assumed: tuple[str, ...]
+    closed: int
+
+
+@dataclass(frozen=True)
+class VerifiedDerivation(Answer):
+    """A derivation that holds; `not_derived` are problems of which it says nothing."""
+
+    verified: Literal[True]
+    mechanism: str
+    problems: tuple[VerifiedProblem, ...]
+    not_derived: tuple[str, ...]
+    seconds: float

@@ -8,18 +8,19 @@ hold. Every choice of roots is a solution, since its values close the file's joi
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from assur.verifier.assembly import ANGLES, Assembly, given_names
-from assur.verifier.branches import closing_branches
-from assur.verifier.field import NoExactError
+from assur.verifier.derivations.assembly import FileAssembly, given_names
+from assur.verifier.derivations.branches import closing_branches
+from assur.verifier.derivations.terms import Quotients, Term, WrittenNumbers, divisors, symbol, term
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, point, reached, rods, same
 from assur.verifier.formula import AngleSum, plain, value
-from assur.verifier.graph import ONE, Matrix, Vector, dot, plus, product, subtract, times, transposed
+from assur.verifier.graph import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 from assur.verifier.mechanism import FileMechanism, mechanism
-from assur.verifier.reading import MalformedError, RefusedError
-from assur.verifier.terms import Quotients, Term, WrittenNumbers, divisors, symbol, term
-from assur.verifier.turning import ClaimedTurn, Hop, fixes, is_rotation, point, reached, rods, same
+from assur.verifier.reading import MalformedError, RefusedError, printable
 
 FORMAT, VERSION = "assur derivation", 1
 LONGEST = 1_000_000
@@ -27,34 +28,75 @@ LONGEST = 1_000_000
 Multiples = Mapping[str, str]
 
 
-def verify_derivation(data: bytes, text: str) -> list[dict[str, Any]]:
-    """Check a derivation against a mechanism's file: of each problem its branches and conditions, and what is assumed.
+@dataclass(frozen=True)
+class ProvedProblem:
+    """What is proved of a problem: these branches, and no others where the conditions hold.
+
+    Attributes:
+        problem: "direct" or "inverse".
+        branches: how many.
+        conditions: what must not vanish, as written.
+        assumed: parallelograms of the file that are taken to stay such.
+        closed: branches that were held against the joint graph.
+    """
+
+    problem: str
+    branches: int
+    conditions: tuple[str, ...]
+    assumed: tuple[str, ...]
+    closed: int
+
+
+def is_derivation(data: bytes) -> bool:
+    """Whether a file says that it is a derivation."""
+    try:
+        document = json.loads(data.decode("utf-8"))
+    except (ValueError, RecursionError):
+        return False
+    return isinstance(document, dict) and document.get("format") == FORMAT
+
+
+def problems_of(data: bytes) -> tuple[str, tuple[str, ...]]:
+    """The name of a derivation's mechanism, and the problems that it does not solve. Errors: MalformedError."""
+    document = _read(data)
+    without = (own["problem"] for own in document["problems"] if own["status"] != "derived")
+    return printable(document["mechanism"]), tuple(map(printable, without))
+
+
+def verify_derivation(data: bytes, text: str) -> list[ProvedProblem]:
+    """Check a derivation against a mechanism's file: what is proved of each problem that it solves.
 
     Errors:
         MalformedError: it is no derivation with identities.
         RefusedError: something does not hold, or it is that of another mechanism.
     """
-    try:
-        document = json.loads(data.decode("utf-8"))
-        if document["format"] != FORMAT or document["version"] != VERSION:
-            raise MalformedError(f"its format is not {FORMAT!r}, version {VERSION}")
-        problems = document["problems"]
-        if not problems:
-            raise MalformedError("it derives nothing")
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise MalformedError(f"no derivation: {error}") from error
+    document = _read(data)
     try:
         own = mechanism(text)
-        return [_ProblemCheck(own, problem).findings() for problem in problems]
+        solved = [problem for problem in document["problems"] if problem["status"] == "derived"]
+        return [_ProblemCheck(own, problem).findings() for problem in solved]
     except (ValueError, KeyError, TypeError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
         raise RefusedError(f"it does not fit the mechanism file: {type(error).__name__}: {error}") from error
+
+
+def _read(data: bytes) -> dict[str, Any]:
+    try:
+        document: dict[str, Any] = json.loads(data.decode("utf-8"))
+        if document["format"] != FORMAT or document["version"] != VERSION:
+            raise MalformedError(f"its format is not {FORMAT!r}, version {VERSION}")
+        printable(document["mechanism"])
+        if not any(own["status"] == "derived" for own in document["problems"]):
+            raise MalformedError("it derives nothing")
+        if not all("proof" in own for own in document["problems"] if own["status"] == "derived"):
+            raise MalformedError("it has no identities; `assur derive --prove --json` writes them")
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise MalformedError(f"no derivation: {type(error).__name__}: {error}") from error
+    return document
 
 
 class _ProblemCheck:
     def __init__(self, own: FileMechanism, problem: Mapping[str, Any]) -> None:
         self.mechanism, self.problem = own, problem
-        if problem["status"] != "derived" or "proof" not in problem:
-            raise MalformedError(f"{problem['problem']}: no identities; `assur derive --prove` writes them")
         self.proof, self.name = problem["proof"], str(problem["problem"])
         if self.name not in ("direct", "inverse"):
             raise MalformedError(f"no such problem: {self.name[:40]!r}")
@@ -74,12 +116,12 @@ class _ProblemCheck:
         self.earlier: dict[str, Term] = {}
         self.conditions: list[str] = []
         self.allowed: list[Term] = []
-        self.assembly = Assembly(own, self.name, self.numbers, self.parameters, self.given, self.zero)
+        self.assembly = FileAssembly(own, self.name, self.numbers, self.parameters, self.given, self.zero)
         graph = self.assembly.graph
         axes = [part for joint in graph.joints.values() for axis in (*joint.axes, *joint.turn) for part in axis]
         self.allowed += divisors(part for part in axes if isinstance(part, Term))  # a direction has a length
 
-    def findings(self) -> dict[str, Any]:
+    def findings(self) -> ProvedProblem:
         """What is proved."""
         turns = self._turns()
         self._unknowns(turns)
@@ -97,13 +139,8 @@ class _ProblemCheck:
         if self.problem["branches"] != count:
             raise RefusedError(f"{self.problem['branches']} branches are claimed, {count} follow of the roots")
         checked = closing_branches(self.mechanism, self.problem, self.conditions)
-        return {
-            "problem": self.name,
-            "branches": count,
-            "conditions": self.conditions,
-            "assumed": [own.name for own in self.mechanism.parallelograms],
-            "closed": checked,
-        }
+        assumed = tuple(own.name for own in self.mechanism.parallelograms)
+        return ProvedProblem(self.name, count, tuple(self.conditions), assumed, checked)
 
     # formulas and identities
 
@@ -124,7 +161,7 @@ class _ProblemCheck:
         return own
 
     def zero(self, own: Any) -> bool:
-        """Whether a number vanishes, by squares that are known, then by what names stand for, then by what is solved."""
+        """Whether a number vanishes, by known squares, then by what names stand for, then by what is solved."""
         if not isinstance(own, Term):
             return bool(own == 0)
         return any(self._quotients([own], level).zero(own) for level in self._levels())
@@ -142,7 +179,9 @@ class _ProblemCheck:
     def _nonzero(self, own: Term) -> bool:
         for level in self._levels():
             field = self._quotients([own, *self.allowed], level)
-            positive = self.mechanism.positive | {name for name in field.names if name.startswith("sqrt(") and "-" not in name}
+            positive = self.mechanism.positive | {
+                name for name in field.names if name.startswith("sqrt(") and "-" not in name
+            }
             if field.never_zero(own, self.allowed, positive):
                 return True
         return False
@@ -173,7 +212,7 @@ class _ProblemCheck:
             return int(constant) if constant in (0, 1, -1) else own
 
         a, b, c = (tuple(map(entry, row)) for row in turn)
-        return a, b, c  # type: ignore[return-value]
+        return a, b, c
 
     def _reached(self, root: str, axis: Vector | None) -> dict[str, Matrix]:
         return reached(self.assembly.hops, root, axis, self.zero, self._tidy)
@@ -184,7 +223,9 @@ class _ProblemCheck:
             self._reason(reason)
         turns: dict[str, ClaimedTurn] = {}
         for own in self.proof["orientations"]:
-            axis, hinge, line = (None if own[key] is None else self._vector(own[key]) for key in ("axis", "hinge", "line"))
+            axis, hinge, line = (
+                None if own[key] is None else self._vector(own[key]) for key in ("axis", "hinge", "line")
+            )
             circle, rod = (None if own[key] is None else tuple(map(str, own[key])) for key in ("circle", "rod"))
             turn = ClaimedTurn(own["link"], own["kind"], self._matrix(own["constant"]), axis, circle, hinge, line, rod)
             turns[turn.link] = turn
@@ -204,7 +245,7 @@ class _ProblemCheck:
         """A link that hangs on another along two directions does not turn against it."""
         carrier, link, constant = str(reason["carrier"]), str(reason["link"]), self._matrix(reason["constant"])
         axes = self._vector(reason["first"]), self._vector(reason["second"])
-        across = [self.zero(part) for part in _cross(*axes)]
+        across = [self.zero(part) for part in cross(*axes)]
         fine = not all(across) and is_rotation(constant, self.zero)
         for axis in axes:
             own = self._reached(carrier, axis).get(link)
@@ -232,12 +273,14 @@ class _ProblemCheck:
         if line is None or not self.zero(plus(dot(line, line), -1)):
             return False
         leader = next(own for own in turns.values() if own.rod == turn.rod)
-        parallel = any({leader.link, turn.link} == {*rods(self.mechanism, own)} for own in self.mechanism.parallelograms)
+        parallel = any(
+            {leader.link, turn.link} == {*rods(self.mechanism, own)} for own in self.mechanism.parallelograms
+        )
         if hinge is None:
             joints = [name for name, own in self.mechanism.joints.items() if turn.link in (own.parent, own.child)]
             balls = all(self.mechanism.joints[name].type == "spherical" for name in joints)
             near, far = (point(graph, name, turn.link) for name in joints)
-            straight = all(map(self.zero, _cross(line, subtract(far, near))))
+            straight = all(map(self.zero, cross(line, subtract(far, near))))
             return balls and straight and (leader is turn or parallel) and same(turn.constant, ONE, self.zero)
         axis = turn.axis
         if axis is None or not all(self.zero(dot(*pair)) for pair in ((hinge, axis), (hinge, line))):
@@ -255,12 +298,16 @@ class _ProblemCheck:
             if hop.axis is None or end not in inside or carried is None:
                 continue
             after = hop.after if forward else transposed(hop.after)
-            along = hop.axis if forward else _apply(transposed(hop.after), hop.axis)
+            along = hop.axis if forward else apply(transposed(hop.after), hop.axis)
             whole = product(product(carried, after), transposed(inside[end]))
-            own = _apply(carried, along)
+            own = apply(carried, along)
             # the carrier's psi may count from elsewhere: then the hinge tells from where
             turned = product(turn.constant, transposed(whole))
-            if all(map(self.zero, _cross(own, hinge))) and fixes(turned, hinge, self.zero) and is_rotation(turned, self.zero):
+            if (
+                all(map(self.zero, cross(own, hinge)))
+                and fixes(turned, hinge, self.zero)
+                and is_rotation(turned, self.zero)
+            ):
                 return True
         return False
 
@@ -278,17 +325,18 @@ class _ProblemCheck:
             raise RefusedError(f"lengths that slide are {', '.join(self.assembly.slides())}")
         self.known |= {name: symbol(name) for name in names}
         self.units: dict[str, Term] = {}
-        squares = {}
+        self.squares: dict[str, Term] = {}
         for group in own_ones:
             total = sum((self.known[name] * self.known[name] for name in group), term(-1))
             for label, text in self.proof["units"].items():
                 if self._quotients([gap := self.read(text) - total], {}).zero(gap):
                     self.units[label] = total
-                    squares[group[-1]] = self.known[group[-1]] * self.known[group[-1]] - total
+                    self.squares[group[-1]] = self.known[group[-1]] * self.known[group[-1]] - total
         if self.units.keys() != self.proof["units"].keys():
             raise RefusedError("a square that is no link's")
-        self.numbers.squares |= squares
-        self.unknowns = {name for name in names if any(name in _symbols_of(text) for text in self.proof["loops"].values())}
+        self.unknowns = {
+            name for name in names if any(name in _symbols_of(text) for text in self.proof["loops"].values())
+        }
         self.sliding = {name: self.known[own] for name, own in sliding.items()}
         for name, text in self.proof["vectors"].items():
             if name in self.known:
@@ -343,14 +391,13 @@ class _ProblemCheck:
             del self.values[root]
             self.numbers.squares[root] = formulas[root]
         self.earlier |= {name: own for name, own in formulas.items() if name in later}
+        self.numbers.squares |= {name: own for name, own in self.squares.items() if name in formulas}
         if given["roots"] != 2 ** len(choices):
             raise RefusedError(f"{given['roots']} roots are claimed, {2 ** len(choices)} follow of the choices")
         for name in self.earlier.keys() & self.proof["vectors"].keys():
             self.values.pop(name, None)
 
-    def _formulas(
-        self, given: Mapping[str, Any], choices: Mapping[str, Any], later: set[str]
-    ) -> dict[str, Term]:
+    def _formulas(self, given: Mapping[str, Any], choices: Mapping[str, Any], later: set[str]) -> dict[str, Term]:
         """Formulas in their order, each of what stands before it; of a root its radicand."""
         self.known = {name: own for name, own in self.known.items() if name not in later}
         formulas: dict[str, Term] = {}
@@ -378,7 +425,11 @@ class _ProblemCheck:
 
     def _conditions_read(self, given: Mapping[str, Any], formulas: Mapping[str, Term]) -> None:
         """Conditions are formulas of what is known with the set; then what formulas are divided by is looked at."""
-        self.names |= {name: own for name, own in formulas.items() if name not in self.unknowns and name not in {c["root"] for c in given["choices"]}}
+        self.names |= {
+            name: own
+            for name, own in formulas.items()
+            if name not in self.unknowns and name not in {c["root"] for c in given["choices"]}
+        }
         self.numbers.squares |= {own["root"]: formulas[own["root"]] for own in given["choices"]}
         self.allowed += [term(self.read(text.removesuffix(" != 0"))) for text in given["conditions"]]
         for name, own in formulas.items():
@@ -423,18 +474,4 @@ def _plain(own: Any) -> Any:
 
 
 def _symbols_of(text: str) -> set[str]:
-    import re
-
     return {*re.findall(r"[A-Za-z_][\w']*", text)}
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    from assur.verifier.graph import cross
-
-    return cross(a, b)
-
-
-def _apply(turn: Matrix, vector: Vector) -> Vector:
-    from assur.verifier.graph import apply
-
-    return apply(turn, vector)

@@ -10,13 +10,13 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from assur.verifier.assembly import Assembly, given_names
+from assur.verifier.derivations.assembly import FileAssembly, given_names
+from assur.verifier.derivations.turning import ClaimedTurn, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
 from assur.verifier.graph import Matrix, Vector, apply, product, subtract, transposed
 from assur.verifier.mechanism import FileMechanism
 from assur.verifier.reading import RefusedError
-from assur.verifier.turning import ClaimedTurn, same
 
 TRIES = 200
 """Places that are drawn until every radicand has a root there."""
@@ -59,7 +59,7 @@ class _DrawnBranches:
         for name in angles:
             given[f"cos_{name}"], given[f"sin_{name}"] = field.circle(AngleSum({f" {name}": Fraction(1)}))
         self.values = {**self.names, **given}
-        self.assembly = Assembly(mechanism, problem["problem"], field, self.names, given, _zero)
+        self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero)
 
     def closing(self, conditions: Sequence[str]) -> int:
         roots = [choice["root"] for own in self.problem["sets"] for choice in own["choices"]]

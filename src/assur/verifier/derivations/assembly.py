@@ -1,15 +1,29 @@
-"""Loops of a mechanism file over any number type, where the orientation of each link is given in place of joint values."""
+"""Loops of a mechanism file over any number type, where each link has an orientation in place of joint values."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, hops, point
 from assur.verifier.field import NoExactError
 from assur.verifier.formula import NumberType, number
-from assur.verifier.graph import ONE, STEPS, ZERO, Graph, Matrix, Vector, about, add, plus, product, scaled, subtract, times
+from assur.verifier.graph import (
+    ONE,
+    STEPS,
+    ZERO,
+    Graph,
+    Matrix,
+    Vector,
+    about,
+    add,
+    plus,
+    product,
+    scaled,
+    subtract,
+    times,
+)
 from assur.verifier.mechanism import COORDINATES, FileMechanism
-from assur.verifier.turning import ClaimedTurn, Hop, IsZero, hops, point
 
 ANGLES = ("phi", "theta", "psi")
 LENGTHS = ("x", "y", "z")
@@ -36,7 +50,7 @@ def kind_of(mechanism: FileMechanism, joint: str, component: str) -> str:
     return STEPS[own][COORDINATES[own].index(component)][0]
 
 
-class Assembly:
+class FileAssembly:
     """The joint graph with what is given of it.
 
     Args:

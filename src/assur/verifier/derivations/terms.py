@@ -322,11 +322,9 @@ class Quotients:
         if not odd <= positive:
             return False
         zeros = {name for names in alone if len(names - positive) == 1 for name in names - positive}
-        return any(names <= positive for names in alone) or any(
-            self._needs(part, zeros, positive) for part in allowed
-        )
+        return any(names <= positive for names in alone) or any(self._needs(part, zeros) for part in allowed)
 
-    def _needs(self, part: fmpq_mpoly, zeros: set[str], positive: frozenset[str]) -> bool:
+    def _needs(self, part: fmpq_mpoly, zeros: set[str]) -> bool:
         """Whether what does not vanish would, if some symbols did: then one of them does not, nor a sum of squares."""
         place = next((k for k in self._squares if part == self.ring.gen(k)), None)
         own = part if place is None else self._squares[place][0]

@@ -132,7 +132,9 @@ def is_rotation(turn: Matrix, zero: IsZero) -> bool:
     """Whether a matrix is one: orthogonal, of determinant 1."""
     a, b, c = turn
     square = product(turn, transposed(turn))
-    gaps = [plus(x, times(-1, y)) for row, other in zip(square, ONE, strict=True) for x, y in zip(row, other, strict=True)]
+    gaps = [
+        plus(x, times(-1, y)) for row, other in zip(square, ONE, strict=True) for x, y in zip(row, other, strict=True)
+    ]
     return all(map(zero, [*gaps, plus(dot(a, cross(b, c)), -1)]))
 
 

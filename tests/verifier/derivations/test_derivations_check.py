@@ -1,0 +1,176 @@
+"""Derivations held against mechanism files by the small verifier, whole ones and ones that somebody changed."""
+
+import copy
+import json
+import re
+
+import pytest
+
+from assur.cli.main import main
+from assur.model.registry import load_record
+from assur.verifier.derivations.check import is_derivation, problems_of, verify_derivation
+from assur.verifier.reading import MalformedError, RefusedError
+
+TOWERS = ("fivebar", "zeng2019", "tripteron", "orthoglide", "linear_delta_4r", "delta_4s", "tsai_platform",
+          "three_p2us", "linear_delta_4s", "three_crr")  # fmt: skip
+BRANCHES = {"fivebar": (2, 4), "zeng2019": (8, 32), "three_crr": (8, 8), "tripteron": (8, 8)}
+
+
+def text_of(name):
+    return load_record(name).file.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def derived(tmp_path_factory):
+    """The data of `assur derive --prove --json`, of a mechanism and a problem."""
+    known = {}
+
+    def data(name, problem, capture):
+        if (name, problem) not in known:
+            assert main(["derive", name, "--problem", problem, "--prove", "--json"]) == 0
+            known[name, problem] = capture.readouterr().out
+        return json.loads(known[name, problem])
+
+    return data
+
+
+@pytest.fixture
+def fivebar(derived, capsys):
+    return copy.deepcopy(derived("fivebar", "direct", capsys))
+
+
+def verified(document, name):
+    return verify_derivation(json.dumps(document).encode(), text_of(name))
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize(
+    "name", [name if name in TOWERS[:2] else pytest.param(name, marks=pytest.mark.deep) for name in TOWERS]
+)
+def test_towers_are_verified_exactly(derived, name, problem, capsys):
+    (proved,) = verified(derived(name, problem, capsys), name)
+    expected = BRANCHES.get(name, (2, 8))[problem == "inverse"]
+    assert (proved.problem, proved.branches, proved.closed) == (problem, expected, expected)
+    assert proved.assumed == tuple(load_record(name).generalised)
+
+
+def test_the_condition_of_the_seed_is_the_one_under_which_it_is_complete(derived, capsys):
+    (proved,) = verified(derived("zeng2019", "direct", capsys), "zeng2019")
+    assert proved.conditions == ("B1 != 0", "N3 != 0")
+
+
+def changed_formula(problem):
+    problem["sets"][0]["formulas"]["cos_rod2"] = "C1/l2 - cos_rod1"
+
+
+def changed_name(problem):
+    problem["sets"][0]["formulas"]["L1"] = "B1**2 + C1**2"
+
+
+def changed_radicand(problem):
+    problem["sets"][0]["formulas"]["M1"] = "L1**2 + N1"
+
+
+def fewer_branches(problem):
+    problem["branches"] = 1
+
+
+def a_root_that_is_no_choice(problem):
+    problem["branches"], problem["sets"][0]["choices"], problem["sets"][0]["roots"] = 1, [], 1
+
+
+def a_root_of_one_sign(problem):
+    a_root_that_is_no_choice(problem)
+    problem["sets"][0]["formulas"]["r1"] = "0*M1"
+
+
+def no_condition(problem):
+    problem["sets"][0]["conditions"] = []
+
+
+def a_condition_that_never_holds(problem):
+    problem["sets"][0]["conditions"].append("cos_theta1**2 + sin_theta1**2 - 1 != 0")
+
+
+def changed_multiplier(problem):
+    problem["proof"]["sets"][0]["lines"][0]["unit rod2"] = "2*l2**2"
+
+
+def changed_loop(problem):
+    problem["proof"]["loops"]["loop1"] += " + g"
+
+
+def fewer_loops(problem):
+    del problem["proof"]["loops"]["loop1"]
+
+
+def another_square(problem):
+    problem["proof"]["units"]["unit rod1"] = "cos_rod1**2 + sin_rod1**2 - 2"
+
+
+def another_point(problem):
+    problem["results"]["x"] += " + l1"
+
+
+def of_the_pose(problem):
+    problem["sets"][0]["formulas"]["B1"] = "x"
+
+
+def no_unknown(problem):
+    del problem["sets"][0]["formulas"]["sin_rod2"]
+
+
+def a_fixed_link(problem):
+    (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "rod1")
+    own["kind"] = "fixed"
+
+
+def another_axis(problem):
+    (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "rod1")
+    own["axis"] = ["0", "1", "0"]
+
+
+def a_reason_that_is_none(problem):
+    turn = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]
+    reason = {"link": "rod1", "carrier": "base", "first": ["0", "0", "1"], "second": ["0", "1", "0"], "constant": turn}
+    problem["proof"]["reasons"].append(reason)
+
+
+TAMPERED = (
+    changed_formula, changed_name, changed_radicand, fewer_branches, a_root_that_is_no_choice, a_root_of_one_sign,
+    no_condition, a_condition_that_never_holds, changed_multiplier, changed_loop, fewer_loops, another_square,
+    another_point, of_the_pose, no_unknown, a_fixed_link, another_axis, a_reason_that_is_none,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("change", TAMPERED, ids=lambda change: change.__name__)
+def test_what_was_changed_is_refused(fivebar, change):
+    change(fivebar["problems"][0])
+    with pytest.raises(RefusedError):
+        verified(fivebar, "fivebar")
+
+
+def test_what_was_not_changed_is_not(fivebar):
+    assert [own.branches for own in verified(fivebar, "fivebar")] == [2]
+
+
+def test_the_file_of_another_mechanism_is_refused(fivebar):
+    with pytest.raises(RefusedError, match="is not known"):
+        verified(fivebar, "planar_3rrr")
+    other = text_of("fivebar").replace('at = ["g", 0, 0]', 'at = ["2*g", 0, 0]', 1)
+    assert other != text_of("fivebar")
+    with pytest.raises(RefusedError, match="another mechanism"):
+        verify_derivation(json.dumps(fivebar).encode(), other)
+
+
+def test_other_dimensions_are_no_other_mechanism(fivebar):
+    other = re.sub(r"l1( *)= \{ value = \d+", r"l1\1= { value = 17", text_of("fivebar"))
+    assert other != text_of("fivebar")
+    assert verify_derivation(json.dumps(fivebar).encode(), other)[0].branches == 2
+
+
+@pytest.mark.parametrize("data", [b"{}", b"[]", b"{", b'{"format": "assur derivation"}', b"\xff"])
+def test_what_is_no_derivation_is_malformed(data):
+    assert not is_derivation(data) or data.startswith(b'{"format"')
+    with pytest.raises(MalformedError):
+        problems_of(data)
