@@ -157,7 +157,7 @@ def test_what_was_not_changed_is_not(fivebar):
 def test_the_file_of_another_mechanism_is_refused(fivebar):
     with pytest.raises(RefusedError, match="is not known"):
         verified(fivebar, "planar_3rrr")
-    other = text_of("fivebar").replace('at = ["g", 0, 0]', 'at = ["2*g", 0, 0]', 1)
+    other = text_of("fivebar").replace('at = ["g", "0", "0"]', 'at = ["2*g", "0", "0"]', 1)
     assert other != text_of("fivebar")
     with pytest.raises(RefusedError, match="another mechanism"):
         verify_derivation(json.dumps(fivebar).encode(), other)
