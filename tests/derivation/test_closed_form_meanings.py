@@ -47,7 +47,7 @@ def links_named(record, text):
     """The links that a phrase names, in its order."""
     found = {}
     for name, group in record.generalised.items():
-        if (place := text.find(f"parallelogram {name}")) >= 0:
+        if "parallelogram" in text and (place := text.find(name)) >= 0:
             joint = record.joints[group.joints[0]]
             found[place] = joint.child if joint.child != group.child else joint.parent
     for match in re.finditer(r"([a-z]+) (\d+)?(?: ?of limb (\d+))?", text):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,19 +13,30 @@ from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
+from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.derivation import derive
+from assur.derivation.elimination import SolvedSet
+from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.identities import NoIdentityError
 from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.phrases import direction
 from assur.derivation.proof import proof
+from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
 from assur.results.answers.answer import ABSENT
-from assur.results.answers.derivation import DerivationAnswer, DerivedChoice, DerivedProblem, DerivedReason, DerivedSet
+from assur.results.answers.derivation import (
+    DerivationAnswer,
+    DerivedChoice,
+    DerivedFactor,
+    DerivedProblem,
+    DerivedReason,
+    DerivedSet,
+)
 from assur.results.files import write_whole
 
 
@@ -59,6 +71,7 @@ def outcome(
         not_written or ABSENT,
         ABSENT if document is None else str(document),
         str(source) if source is not None and fine else ABSENT,
+        factors=tuple(own for part in parts if part.problem == "inverse" and not part.why for own in _factors(record)),
     )
     return Outcome(data, lambda: _shown(data), exit_code=exit_codes.FINE if fine else exit_codes.UNDECIDED)
 
@@ -103,6 +116,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
             raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
     except NotDerivedError as error:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
+    reach = ReachMeanings(solution)
     sets = tuple(
         DerivedSet(
             tuple(direction.name for direction in part.directions),
@@ -113,6 +127,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
             {own.symbol.name: str(own.formula) for own in part.formulas},
             tuple(DerivedChoice(own.symbol.name, own.radicand.name, str(own.quantity)) for own in part.roots),
             part.count,
+            dict(_meanings(reach, part)),
         )
         for part in solution.sets
     )
@@ -132,6 +147,23 @@ def _with_proof(record: Mechanism, part: DerivedProblem) -> DerivedProblem:
         return replace(part, proof=proof(analytic_solution(record, names[part.problem])))
     except NoIdentityError as error:
         return replace(part, not_proved=str(error))
+
+
+def _meanings(reach: ReachMeanings, part: SolvedSet) -> Iterator[tuple[str, str]]:
+    """Of radicands and conditions what it means that they fail."""
+    for root in part.roots:
+        yield root.radicand.name, reach.radicands[root.radicand].text
+    for condition in part.conditions:
+        yield str(condition), reach.condition(part, condition).text
+
+
+def _factors(record: Mechanism) -> Iterator[DerivedFactor]:
+    """The factors of both determinants; none where the velocity equations do not follow."""
+    inverse = analytic_solution(record, "inverse")
+    formulas, meanings = ClosedFormFormulas(inverse, inverse, {}), FactorMeanings(inverse)
+    with contextlib.suppress(NotDerivedError):
+        for name, kind, value in formulas.factors:
+            yield DerivedFactor(name, kind, str(value), meanings.of(value, kind).text)
 
 
 def _reasons(solution: AnalyticSolution) -> Iterator[DerivedReason]:
@@ -158,6 +190,10 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
                 yield from (Verbatim(f"    {text}") for text in (*own.equations, *own.lines))
                 yield from (Verbatim(f"    where {text}") for text in own.conditions)
                 yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
+                radicands = {choice.radicand for choice in own.choices}
+                yield from (
+                    f"  {name} {'<' if name in radicands else '='} 0: {text}" for name, text in own.meanings.items()
+                )
             yield ""
             yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
             proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
@@ -171,6 +207,12 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         else:
             yield heading(f"{data.mechanism}, {part.problem}: not derived")
             yield part.why
+        yield ""
+    if data.factors:
+        yield "det Jp and det Jq are products of"
+        for factor in data.factors:
+            yield Verbatim(f"    {factor.name} = {factor.formula}")
+            yield f"  {factor.name} = 0: {factor.meaning}"
         yield ""
     if data.not_written is not ABSENT:
         yield f"no closed form is written: {data.not_written}"

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from assur.derivation.flow_figure import flow_figure
 from assur.derivation.formula_latex import COLUMN, width
 from assur.derivation.phrases import listed
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
 from assur.derivation.printed_letters import joint_letter, plain
+from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.written_solution import Block, WrittenFormula
 from assur.results.plain_text import signed
 from assur.topology.facts import Topology
@@ -67,6 +69,8 @@ def _lines(derivation: PrintedDerivation, topology: Topology | None) -> Iterator
         yield from _orientations(reasons, before)
         before = reasons
         yield from _problem(own)
+    if derivation.velocities is not None:
+        yield from _velocities(derivation.velocities)
     for problem, why in derivation.why.items():
         yield rf"\section{{{TITLES[problem]}}}"
         yield f"Not derived: {plain(why)}."
@@ -108,8 +112,14 @@ def _orientations(reasons: tuple[str, ...], before: tuple[str, ...]) -> Iterator
 
 
 def _problem(own: PrintedProblem) -> Iterator[str]:
-    yield "Order of solution, what is known before and what follows:"
-    yield aligned(own.written.order(), numbered=False)
+    nodes = own.written.flow
+    if len(nodes) > 1:
+        name = f"fig:{own.problem}"
+        yield rf"Figure~\ref{{{name}}} shows the order of solution."
+        yield r"\begin{figure}[htb]\centering"
+        yield flow_figure(nodes)
+        yield rf"\caption{{Flow of information of the {own.problem} problem.}}\label{{{name}}}"
+        yield r"\end{figure}"
     for part in own.written.parts():
         yield rf"\subsection{{{plain(part.title)}}}"
         yield from map(_block, part.blocks)
@@ -155,16 +165,38 @@ def _gathered(formulas: tuple[WrittenFormula, ...]) -> str:
     return f"\\begin{{gather}}\n  {body}\n\\end{{gather}}"
 
 
+def _velocities(own: PrintedVelocities) -> Iterator[str]:
+    """The equations between rates, and where a determinant vanishes."""
+    yield r"\section{Velocities and singular configurations}"
+    yield r"The loop equations, differentiated and without the rates of passive joints, are"
+    yield aligned(own.equations)
+    for kind, matrix, word in (("parallel", "p", "parallel"), ("serial", "q", "serial")):
+        factors = [factor for factor in own.factors if factor.kind == kind]
+        side = "left" if kind == "parallel" else "right"
+        yield rf"\noindent The determinant of the {side} side, $\det J_{matrix}$, "
+        if not factors:
+            yield rf"never vanishes: there is no {word} singularity.\par"
+            continue
+        yield rf"vanishes in a {word} singularity, where"
+        yield r"\begin{itemize}\setlength{\itemsep}{0pt}"
+        for k, factor in enumerate(factors):
+            end = "." if k + 1 == len(factors) else ","
+            formula = f"${factor.formula} = 0$: " if factor.formula else ""
+            yield rf"\item[$\bullet$] {formula}{factor.meaning}{end}"
+        yield r"\end{itemize}"
+
+
 def _example(own: PrintedProblem) -> Iterator[str]:
     example, solution = own.example, own.written.solution
     held = CLOSE[own.closes]
     yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}."
-    if not example.branches:
+    if solution.eliminant is not None:
         yield "They are counted over complex numbers; how many are real depends on what is given."
+    if not example.branches:
         return
     given = ", ".join(f"${value.latex} = {value.number}$ {plain(value.unit)}" for value in example.given)
     real = [branch for branch in example.branches if branch.values]
-    yield f"At {given} {len(real)} of {len(example.branches)} {'is' if len(real) == 1 else 'are'} real:"
+    yield f"At {given} {len(real)} of {solution.branches} {'is' if len(real) == 1 else 'are'} real:"
     yield from _table(own, example)
 
 
@@ -177,7 +209,9 @@ def _table(own: PrintedProblem, example: PrintedExample) -> Iterator[str]:
     yield rf"\begin{{tabular}}{{c{'r' * max(len(heads), 1)}}}\hline"
     signs = ", ".join(own.written.printed.signs[root.symbol][0] for _, root in sorted(
         zip(own.order, own.written.solution.roots, strict=True), key=lambda pair: pair[0]))  # fmt: skip
-    yield " & ".join([f"${signs}$", *(f"${value.latex}$ ({plain(value.unit)})" for value in heads)]) + r" \\ \hline"
+    head = "root" if own.written.solution.eliminant is not None else ""
+    head = f"{head} ${signs}$" if signs else head
+    yield " & ".join([head.strip(), *(f"${value.latex}$ ({plain(value.unit)})" for value in heads)]) + r" \\ \hline"
     for branch in shown:
         mode = branch.mode.replace("-", "{-}").replace("+", "{+}")
         if branch.values:

@@ -21,6 +21,8 @@ from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
 
 ZERO = sympy.Integer(0)
+SUMS = "HBCDEFGPQSTUV"
+"""Letters for what is known of an equation, with the number of its set."""
 
 
 @dataclass(frozen=True)
@@ -108,13 +110,14 @@ class _Set:
         self.conditions: list[sympy.Expr] = []
         self.roots: list[Root] = []
         self.shared: list[sympy.Expr] = []
-        self.taken, self.letters = taken, iter("BCDEFGPQSTUV")
+        self.taken = taken
+        self.letters = (letter for letter in SUMS if f"{letter}{number}" not in taken)
         self.equations = [self._with_names(form) for form in equations]
 
     def _with_names(self, form: Form) -> Form:
         """What is known of an equation under one name."""
         known = form.get(ONE, ZERO)
-        if sympy.count_ops(known) < 2:
+        if not sympy.sympify(known).is_Add:
             return form
         return {**form, ONE: self._named(next(self.letters), known)}
 

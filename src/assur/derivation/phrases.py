@@ -83,16 +83,20 @@ def joined(names: Sequence[PhrasePart]) -> tuple[str, tuple[PhrasePart, ...]]:
     >>> joined([NamedJoint("A"), NamedJoint("B"), NamedJoint("C")])[0]
     '{}, {} and {}'
     """
-    return listed(["{}"] * len(names)), tuple(names)
+    places = listed(["{}"] * len(names))
+    groups = [own for own in names if isinstance(own, NamedLink) and own.parallelogram]
+    if len(groups) == len(names) > 1:
+        return f"parallelograms {places}", tuple(NamedJoint(own.name) for own in groups)
+    return places, tuple(names)
 
 
-def listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str], last: str = "and") -> str:
     """Names one after another.
 
     >>> listed(["A", "B", "C"])
     'A, B and C'
     """
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {last} {names[-1]}"
 
 
 def words(link: str) -> str:

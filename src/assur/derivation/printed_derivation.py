@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.numeric_example import ExampleBranch, angle, example_branches
 from assur.derivation.printed_letters import PrintedLetters, input_letter, letter, plain, sign_formula
+from assur.derivation.printed_velocities import PrintedVelocities, printed_velocities
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.symbols import circle_of
 from assur.derivation.written_solution import WrittenSolution
@@ -83,11 +85,15 @@ class PrintedProblem:
 
 @dataclass(frozen=True, eq=False)
 class PrintedDerivation:
-    """What is printed of a mechanism; `why` has the problems that were not solved, and what resists."""
+    """What is printed of a mechanism; `why` has the problems that were not solved, and what resists.
+
+    `velocities` follow of the inverse problem, where they do.
+    """
 
     record: MechanismRecord
     problems: tuple[PrintedProblem, ...]
     why: Mapping[Problem, str]
+    velocities: PrintedVelocities | None = None
 
 
 def printed_derivation(
@@ -103,7 +109,10 @@ def printed_derivation(
     """
     signs = _signs(record, solutions)
     printed = [_Problem(record, problem, solution, signs).printed() for problem, solution in solutions.items()]
-    return PrintedDerivation(record, tuple(printed), why)
+    velocities = None
+    with contextlib.suppress(NotDerivedError):
+        velocities = next((printed_velocities(own.written) for own in printed if own.problem == "inverse"), None)
+    return PrintedDerivation(record, tuple(printed), why, velocities)
 
 
 def _signs(record: MechanismRecord, solutions: Mapping[Problem, AnalyticSolution]) -> RootSigns:
@@ -176,8 +185,6 @@ class _Problem:
             else:
                 values[sympy.Symbol(name, real=True)] = number
         senses = [self._letters[root.symbol][1] for root in self.solution.roots]
-        if self.solution.eliminant is not None:  # whose roots no choice of signs gives
-            return PrintedExample(tuple(given), ())
         branches = example_branches(self.solution, values, senses)
         rows = sorted((self._branch(written, own) for own in branches), key=lambda own: own.mode)
         return PrintedExample(tuple(given), tuple(rows))
@@ -185,6 +192,7 @@ class _Problem:
     def _branch(self, written: WrittenSolution, branch: ExampleBranch) -> PrintedBranch:
         signs = sorted(zip(self._order, branch.signs, strict=True))
         mode = "".join("+" if sign > 0 else "-" for _, sign in signs)
+        mode = f"{branch.root} {mode}".strip() if branch.root else mode
         if branch.negative is not None:
             return PrintedBranch(mode, (), written.writer.text(branch.negative))
         values = (

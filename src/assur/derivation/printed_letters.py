@@ -29,6 +29,8 @@ TURNS = (r"\theta", r"\varphi", r"\psi", r"\chi", r"\omega", r"\eta", r"\zeta")
 """Letters for angles of which the file names none: one for each kind of link, its number as index."""
 RODS = ("d", "f", "g", "n", "m", "p")
 """The same for directions of rods."""
+STROKES = ("v", "u", "w", "e")
+"""For vectors with a length in them."""
 ROOTS = ("g", "k", "p", "q", "f")
 """And for roots of sums of dimensions."""
 SHIFTED = {"^": r"\wedge", "~": r"\sim"}
@@ -72,10 +74,20 @@ class PrintedLetters:
         for coordinate in record.platform.pose:
             own |= _of_angle(coordinate, letter(coordinate))
             own[sympy.Symbol(coordinate, real=True)] = PrintedLetter(letter(coordinate))
-        for symbol in self.solution.loops.lengths.values():
+        plain_inputs = {
+            driven.coordinate.index: driven for driven in record.inputs if driven.sign == 1 and not driven.offset
+        }
+        for index, symbol in self.solution.loops.lengths.items():
+            if index in plain_inputs:
+                own[symbol] = PrintedLetter(input_letter(plain_inputs[index]))
+                continue
             own[symbol] = PrintedLetter(f"s_{{{joint_letter(symbol.name.removeprefix('q_').replace('_', '.'))}}}")
         for unknown in self.solution.loops.directions:
             own |= self._of_direction(unknown)
+        for part in self.solution.sets:
+            for unknown in part.directions:
+                if unknown.kind == "stroke":
+                    own |= self._of_stroke(unknown)
         own |= {root: PrintedLetter(root.name, rank=1) for root in self.radicals.values()}
         for definition in self.solution.definitions:
             own.setdefault(definition.symbol, PrintedLetter(_defined(definition.symbol.name)))
@@ -117,7 +129,7 @@ class PrintedLetters:
     def vector(self, parts: Sequence[sympy.Expr]) -> str:
         """A vector in bold, by the letters of its parts; a row of these where they have no letter in common."""
         texts = [self.letters[part].latex if part in self.letters else sympy.latex(part) for part in parts]
-        if all(text.endswith(f"{axis}}}") for text, axis in zip(texts, "xyz", strict=True)):
+        if all(text.endswith(f"{axis}}}") for text, axis in zip(texts, "xyz"[: len(texts)], strict=True)):
             stem, _, index = texts[0].partition("_")
             return rf"\mathbf{{{stem}}}_{{{index.strip('{}')[:-1]}}}".removesuffix("_{}")
         return f"({', '.join(texts)})"
@@ -147,7 +159,7 @@ class PrintedLetters:
                 parts = ", ".join(self.letters[symbol].latex for symbol in unknown.unknowns)
                 yield Nomenclature(f"{self.angle(unknown)} = ({parts})", f"direction of {links}, a unit vector", "")
             elif own.axis is not None and self._named(unknown) is None:
-                yield Nomenclature(self.angle(unknown), f"angle of {links} about {axis}", "rad")
+                yield Nomenclature(self.angle(unknown), f"angle of {links} about {axis}", record.angle)
             elif self._named(unknown) is not None and self.angle(unknown) not in self._given:
                 yield Nomenclature(self.angle(unknown), f"angle of {links}", record.angle)
 
@@ -181,6 +193,17 @@ class PrintedLetters:
         latex, sense = named or (self._letter(unknown, TURNS), 1)
         cosine, sine = unknown.unknowns
         return {cosine: PrintedLetter(latex, "cos", rank=5), sine: PrintedLetter(latex, "sin", sense, rank=5)}
+
+    def _of_stroke(self, unknown: UnknownDirection) -> dict[sympy.Symbol, PrintedLetter]:
+        """The components of a vector with a length in it, by the number of its set."""
+        free = next(own for own in STROKES if own not in self._taken)
+        number = next(k for k, part in enumerate(self.solution.sets, start=1) if unknown in part.directions)
+        several = [own for own in self.solution.sets[number - 1].directions if own.kind == "stroke"]
+        index = f"{number}" if len(several) == 1 else f"{number}{'abcdefgh'[several.index(unknown)]}"
+        return {
+            symbol: PrintedLetter(f"{free}_{{{index}{axis}}}", rank=5)
+            for symbol, axis in zip(unknown.unknowns, "xy", strict=True)
+        }
 
     def _named(self, unknown: UnknownDirection) -> tuple[str, int] | None:
         """The file's letter of the angle by which a link turns against what does not turn, and its sense."""
@@ -312,14 +335,18 @@ def sign_formula(text: str, angles: Mapping[str, str]) -> str:
 
     >>> sign_formula("C1.z - B1.z > 0", {}), sign_formula("sin(D3a - D1) > 0", {"D3a": r"\beta", "D1": r"\alpha"})
     ('z_{C_{1}} - z_{B_{1}} > 0', '\\sin(\\beta - \\alpha) > 0')
+    >>> sign_formula("sin(D1) > 0", {"D1": r"\alpha"})
+    '\\sin \\alpha > 0'
     """
+    plain_text = re.sub(r"\b(sin|cos|tan)\(([\w.]+)\)", r"\1 \2", text)
 
     def letters(match: re.Match[str]) -> str:
         function, joint, axis, name = match.groups()
         if function:
-            return rf"\{function}("
+            return rf"\{function}{'(' if match[0].endswith('(') else ' '}"
         if axis:
             return f"{axis}_{{{joint_letter(joint)}}}"
         return angles.get(name, rf"\theta_{{{joint_letter(name)}}}")
 
-    return re.sub(r"\b(sin|cos|tan)\(|\b([A-Za-z][\w.]*)\.([xyz])\b|\b([A-Za-z][\w.]*)", letters, text).replace("*", "")
+    pattern = r"\b(sin|cos|tan)[( ]|\b([A-Za-z][\w.]*)\.([xyz])\b|\b([A-Za-z][\w.]*)"
+    return re.sub(pattern, letters, plain_text).replace("*", "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
@@ -207,5 +208,9 @@ def _solved(
 
 
 def _names(record: MechanismRecord) -> set[str]:
+    """Names of the file, and every number of a letter that points or joints have."""
     given: Mapping[str, object] = record.parameters
-    return {*given, *(driven.name for driven in record.inputs), *record.platform.pose}
+    points = [*record.points, *(name for joint in record.joints.values() for name in (joint.name, joint.alias))]
+    letters = {match[1] for name in points if (match := re.fullmatch(r"(?:.*\.)?([A-Z])(?![A-Z]).{0,2}", name))}
+    numbered = {f"{letter}{number}" for letter in letters for number in range(1, len(record.joints) + 1)}
+    return {*given, *(driven.name for driven in record.inputs), *record.platform.pose, *numbered}

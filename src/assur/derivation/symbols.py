@@ -84,6 +84,18 @@ class GivenSymbols:
             circle_of(name) for name in posed if name in ANGLES
         ]
 
+    @property
+    def given(self) -> list[sympy.Symbol]:
+        """Symbols of the inputs, or of the pose where that is given, in the file's order; of angles cosine and sine."""
+        driven = [own.name for own in self.record.inputs]
+        names = driven if self.problem == "direct" else [*self.record.platform.pose]
+        circles = {own for circle in self.circles for own in circle}
+        return [
+            symbol
+            for name in names
+            for symbol in (circle_of(name) if circle_of(name)[0] in circles else (sympy.Symbol(name, real=True),))
+        ]
+
     @cached_property
     def place(self) -> dict[str, sympy.Symbol]:
         """Coordinate of the platform's point -> its symbol, where the pose is given."""

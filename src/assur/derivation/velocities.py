@@ -67,9 +67,19 @@ class _Velocities:
         size = len(self.pose)
         if len(rows) != size or len(self.inputs) != size:
             raise NotDerivedError(f"{len(rows)} velocity equations for {size} rates of the pose")
+        rows = [{key: self._on_circles(part) for key, part in row.items()} for row in rows]
         jp = sympy.Matrix([[row.get(rate, 0) for rate in self.pose] for row in rows])
         jq = sympy.Matrix([[-row.get(rate, 0) for rate in self.inputs] for row in rows])
         return VelocityEquations(jp, jq, factors_of(jp), factors_of(jq))
+
+    def _on_circles(self, entry: sympy.Expr) -> sympy.Expr:
+        """A number where an entry is a multiple of the sum of the squares of a cosine and its sine; else the entry."""
+        own = sympy.expand(entry)
+        for direction in self.solution.loops.directions:
+            if direction.kind == "circle":
+                cosine, sine = direction.unknowns
+                own = sympy.expand(own.subs(sine**2, 1 - cosine**2))
+        return own if own.is_number else entry
 
     def _alike(self, row: Form) -> Form:
         """A row in which unknowns that are the same, or opposite, have one name."""

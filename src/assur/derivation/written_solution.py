@@ -15,8 +15,9 @@ from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.formula_latex import BREAK, COLUMN, FUNCTIONS, FormulaLatex, width, wrapped
 from assur.derivation.linear import ONE, Form, never_zero
 from assur.derivation.loop_equations import UnknownDirection
-from assur.derivation.phrases import direction, listed, words
+from assur.derivation.phrases import GeometricPhrase, direction, listed, words
 from assur.derivation.printed_letters import PrintedLetters, input_letter, joint_letter
+from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.rod_vectors import RodVectors, rod_vectors
 from assur.derivation.solution import AnalyticSolution
 
@@ -54,6 +55,16 @@ class WrittenPart:
 
     title: str
     blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class FlowNode:
+    """A step of a solution: its name, what it gives, what is given of it, and the places of the steps before it."""
+
+    name: str
+    gives: str
+    given: tuple[str, ...]
+    before: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +169,13 @@ class WrittenSolution:
         if part.eliminant is not None:
             yield from self._polynomial(part, part.eliminant, steps)
             return
+        if any(own.kind == "stroke" for own in part.directions):
+            left_out = {own.symbol for own in steps.known} | {root.symbol for root in part.roots}
+            said = {self._equation(form).latex for form in part.equations}
+            lines = [self.line(own.symbol, own.formula) for own in part.definitions if own.symbol not in left_out]
+            yield "and so"
+            yield tuple(own for own in lines if own.latex not in said)
+            return
         base, others = part.directions[0], part.directions[1:]
         vectors = rod_vectors(part)
         if part.lines:
@@ -174,7 +192,9 @@ class WrittenSolution:
                 yield "where" if part.lines else "with"
                 yield tuple(self.line(own.symbol, own.formula) for own in steps.named)
             yield "and so"
-            yield tuple(self.line(own.symbol, own.formula) for own in steps.of((*base.unknowns, *steps.late)))
+            said = {self._equation(form).latex for form in part.equations}
+            lines = [self.line(own.symbol, own.formula) for own in steps.of((*base.unknowns, *steps.late))]
+            yield tuple(own for own in lines if own.latex not in said)
         rest = [own for other in others for own in steps.of(other.unknowns)]
         if rest:
             yield "Back in the loop equations,"
@@ -202,9 +222,6 @@ class WrittenSolution:
         yield (WrittenFormula("0", self.writer.rows(last.formula, 3)),)
         yield "At each of its roots"
         yield tuple(self.line(own.symbol, own.formula) for other in others for own in steps.of(other.unknowns))
-        texts = dict.fromkeys(self._condition(own) for own in part.conditions if not never_zero(own))
-        if texts:
-            yield f"The formulas hold where {listed([rf'${text} ' + NOT_ZERO for text in texts])}."
 
     def _quadrics(self, others: Sequence[UnknownDirection]) -> str:
         """Why squares add up to 1."""
@@ -215,37 +232,81 @@ class WrittenSolution:
         sums = [rf"$\cos^{{2}}{own} + \sin^{{2}}{own} = 1$" for own in angles]
         return f"As {listed(sums)}"
 
-    def order(self) -> tuple[WrittenFormula, ...]:
-        """What each set takes of what is given and of sets before it, and what it gives."""
-        return tuple(self._flow())
+    @cached_property
+    def flow(self) -> tuple[FlowNode, ...]:
+        """What each set takes of what is given and of sets before it, what it gives; the result last."""
+        owner = {symbol: k for k, part in enumerate(self.solution.sets) for own in part.directions
+                 for symbol in own.unknowns}  # fmt: skip
+        nodes = []
+        for k, part in enumerate(self.solution.sets):
+            given, before = self._sources([form for line in part.equations for form in line.values()], owner, {k})
+            found = ", ".join(self.printed.angle(own) for own in part.directions)
+            nodes.append(FlowNode(f"Set {k + 1}", found, given, before))
+        rows = self._result().blocks[0]
+        if not isinstance(rows, str):
+            direct = self.solution.symbols.problem == "direct"
+            ahead = [*self.solution.point] if direct else [own.formula for own in self.solution.lengths]
+            given, before = self._sources(ahead, owner, set())
+            nodes.append(FlowNode("", ", ".join(row.left for row in rows), given, before))
+        return tuple(nodes)
 
-    def _flow(self) -> Iterator[WrittenFormula]:
-        owner = {symbol: own for own in self.solution.loops.directions for symbol in own.unknowns}
+    def _sources(
+        self, ahead: Sequence[sympy.Expr], owner: Mapping[sympy.Symbol, int], inside: set[int]
+    ) -> tuple[tuple[str, ...], tuple[int, ...]]:
+        """Letters that are given and places of sets, of which formulas are worked out."""
         formulas = {own.symbol: own.formula for own in self.solution.definitions}
         dimensions = {*self.solution.symbols.parameters.values()}
-        for part in self.solution.sets:
-            ahead = [form for line in part.equations for form in line.values()]
-            first, later = dict[str, None](), dict[str, None]()
-            inside = {symbol for own in part.directions for symbol in own.unknowns}
-            while ahead:
-                for symbol in sorted(sympy.sympify(ahead.pop(0)).free_symbols - dimensions - inside, key=str):
-                    if symbol in owner:
-                        later[self.printed.angle(owner[symbol])] = None
-                    elif symbol in formulas:
-                        ahead.append(formulas[symbol])
-                    else:
-                        first[self.writer.letters[symbol].latex] = None
-            given = ", ".join(self.printed.angle(own) for own in part.directions)
-            yield WrittenFormula(", ".join([*first, *later]), (given,), r"\to")
+        left, given, before = [*ahead], dict[str, None](), set[int]()
+        while left:
+            for symbol in sorted(sympy.sympify(left.pop(0)).free_symbols - dimensions, key=str):
+                if symbol in owner:
+                    before |= {owner[symbol]} - inside
+                elif symbol in formulas:
+                    left.append(formulas[symbol])
+                else:
+                    given[self.writer.letters[symbol].latex] = None
+        order = [self.writer.letters[symbol].latex for symbol in self.solution.symbols.given]
+        return tuple(own for own in dict.fromkeys(order) if own in given), tuple(sorted(before))
 
     def _choice(self, part: SolvedSet) -> Iterator[Block]:
         for root in part.roots:
             sign = self.printed.signs[root.symbol][0]
             radicand = self.writer.text(root.radicand)
-            said = f"${sign} = \\pm 1$: {self._said(root)}. Branches are real where ${radicand} \\ge 0$"
-            texts = dict.fromkeys(self._condition(own) for own in part.conditions if not never_zero(own))
-            conditions = [f"${text} \\ne 0$" for text in texts]
-            yield f"{said}; the formulas hold where {listed(conditions)}." if conditions else f"{said}."
+            meaning = self.phrase(self._reach.radicands[root.radicand])
+            real = f"Branches are real where ${radicand} \\ge 0$; where ${radicand} < 0$, {meaning}."
+            if any(own.symbol == root.radicand and own.formula.is_Symbol for own in part.definitions):
+                real = f"Every branch is real, as ${radicand}$ is a sum of squares."
+            yield f"${sign} = \\pm 1$: {self._said(root)}. {real}"
+        told: dict[str, list[str]] = {}
+        for own in part.conditions:
+            if not never_zero(own):
+                free = self._free(part) if own in part.shared else ""
+                same = told.setdefault(self.phrase(self._reach.condition(part, own)) + free, [])
+                same += [text for text in [self._condition(own)] if text not in same]
+        if told:
+            texts = listed([rf"${text} {NOT_ZERO}" for same in told.values() for text in same])
+            fails = "; ".join(
+                f"where {listed([f'${text} = 0$' for text in same], 'or')}, {meaning}" for meaning, same in told.items()
+            )
+            yield f"The formulas hold where {texts}: {fails}."
+
+    def _free(self, part: SolvedSet) -> str:
+        """What follows where all of the one line vanishes: the platform moves on a curve."""
+        if self.solution.symbols.problem == "inverse" or len(part.lines) > 1 or part.directions[0].kind != "circle":
+            return ""
+        angle = self.printed.angle(part.directions[0])
+        return (
+            f", so that ${angle}$ may have any value and the platform moves on a curve while every input stands, "
+            "by the equations of the sets that follow"
+        )
+
+    @cached_property
+    def _reach(self) -> ReachMeanings:
+        return ReachMeanings(self.solution)
+
+    def phrase(self, own: GeometricPhrase) -> str:
+        """A meaning with the letters of this solution."""
+        return own.written(joint_letter, self.axis)
 
     def _said(self, root: Root) -> str:
         meaning = self.meanings.get(root.symbol, "")

@@ -16,7 +16,7 @@ def test_both_problems_have_their_reasons_and_their_sets():
     assert [own.title for own in sets] == [
         "Set 1: link 9 and link 10", "Set 2: link 4a", "Set 3: link 12 and link 7a", "The pose"
     ]  # fmt: skip
-    assert r"$B_{1} \ne 0$" in sets[0].caption
+    assert r"$H_{1} \ne 0$" in sets[0].caption
 
 
 def test_every_formula_is_mathematics():

@@ -56,7 +56,7 @@ def test_towers_are_verified_exactly(derived, name, problem, capsys):
 
 def test_the_condition_of_the_seed_is_the_one_under_which_it_is_complete(derived, capsys):
     (proved,) = verified(derived("zeng2019", "direct", capsys), "zeng2019")
-    assert proved.conditions == ("B1 != 0", "N3 != 0")
+    assert proved.conditions == ("H1 != 0", "N3 != 0")
 
 
 def changed_formula(problem):
@@ -113,7 +113,7 @@ def another_point(problem):
 
 
 def of_the_pose(problem):
-    problem["sets"][0]["formulas"]["B1"] = "x"
+    problem["sets"][0]["formulas"]["H1"] = "x"
 
 
 def no_unknown(problem):

@@ -45,6 +45,17 @@ class DerivedSet:
     formulas: Mapping[str, str]
     choices: tuple[DerivedChoice, ...]
     roots: int
+    meanings: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class DerivedFactor:
+    """A factor of det Jp ("parallel") or det Jq ("serial") in the inverse problem's unknowns, and where it vanishes."""
+
+    name: str
+    kind: str
+    formula: str
+    meaning: str
 
 
 Multiples = Mapping[str, str]
@@ -140,6 +151,7 @@ class DerivationAnswer(Answer):
     """What was derived of a mechanism, problem by problem, and the files that were written, or why none was.
 
     `format` and `version` are those that `assur verify` reads.
+    `factors` are those of the velocity equations, where the inverse problem was asked for and derived.
     """
 
     mechanism: str
@@ -150,6 +162,7 @@ class DerivationAnswer(Answer):
     c: str | Absent = ABSENT
     format: str = "assur derivation"
     version: int = 1
+    factors: tuple[DerivedFactor, ...] = ()
 
 
 @dataclass(frozen=True)
