@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, distinguishing_signs
 from assur.kinematics.closure import closure_jacobian
@@ -28,7 +29,7 @@ DEEP = [
 
 
 def signs_of(record, problem, values):
-    screws = ScrewColumns(record, values)
+    screws = ScrewColumns(with_ball_ends(record), ball_ended_values(record, values))
     signs = [sign.signs(screws) for sign in distinguishing_signs(record, problem)]
     return np.array(signs, dtype=int).reshape(len(signs), len(values)).T
 

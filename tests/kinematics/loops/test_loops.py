@@ -25,6 +25,7 @@ from assur.synthesis.drafting.copying import copied
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
 from catalogue import each
+from moved_frames import with_moved_frames
 from reordered import reordered
 
 TABLE_1 = (162.6907, -143.3209, -24.6776)
@@ -57,6 +58,24 @@ def test_direct_problem_agrees_with_the_closed_form(name: str) -> None:
     gaps = np.linalg.norm(ours[:, None] - closed[None], axis=-1)
     assert np.max(np.min(gaps, axis=0)) < 1e-6
     assert np.max(np.min(gaps, axis=1)) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["delta_4s", "three_p2us", "orthoglide", "three_rps", "planar_3rrr"])
+def test_where_the_frames_of_links_are_decides_nothing(name: str) -> None:
+    """A rod whose frame stands beside its line is as straight as another."""
+    record = load_record(name)
+    moved, home = with_moved_frames(record, 3), home_values(record)
+    pose = pose_of(record, home)
+    assert np.allclose(pose_of(moved, home), pose)
+    questions = [{"inputs": inputs_of(record, home)}, *([{"pose": pose}] if name != "three_rps" else [])]
+    for question in questions:
+        found, other = solve_by_loops(record, **question), solve_by_loops(moved, **question)
+        assert found.complete
+        assert other.complete
+        assert len(found.joints) == len(other.joints) > 0
+        where = places(record, other.joints)
+        for row in places(record, found.joints):
+            assert np.min(np.max(np.abs(where - row), axis=1)) < 1e-6
 
 
 @pytest.mark.parametrize("name", [*COMPLETE, "three_rrrp4r"])

@@ -106,6 +106,18 @@ def test_a_held_joint_is_one_with_the_next():
     assert limb_solutions(held, end(limb, values)).values.round(9).tolist() == [[-0.4, 0.9]]
 
 
+@pytest.mark.parametrize("at", [0.0, 6e-15])
+def test_points_that_differ_by_rounding_are_in_one_place(at):
+    """A leg all of whose points are on the base's origin, the platform's too: none of these is a length."""
+    turns = [ElementaryMotion("turn", axis, np.full(3, at), k, 1) for k, axis in enumerate(np.eye(3)[:2])]
+    slide = ElementaryMotion("slide", np.eye(3)[2], np.full(3, at), 2, 1)
+    leg = SerialLimb(("U", "P"), (*turns, slide), (np.eye(3), np.zeros(3)), 300.0)
+    for off in (0.0, 3e-13):
+        assert np.allclose(
+            closed_series(leg, (np.eye(3), np.full(3, off))).values, [[0, 0, off], [np.pi, np.pi, -off]][:1]
+        )
+
+
 def test_a_loop_closes_where_its_limbs_meet():
     first, second = chain(3, ("turn",) * 3), chain(4, ("turn",) * 2)
     values = np.array([0.3, -0.4, 0.9, 0.2, 0.5])

@@ -135,10 +135,30 @@ def closing_groups(
         carried = {end for joint in own for end in joint.ends} - {record.base}
         followers = {end for joint in in_loops(before) if joint.name not in names for end in joint.ends}
         if not followers & carried:
-            spins = tuple(spin for block in blocks for spin in block.spins)
-            answer.append(ClosingGroup(tuple(blocks), replace(_block(own), spins=spins)))
+            answer += [_group(part, own) for part in _parted(blocks, own, record.base)]
             blocks, before = [], left
     return tuple(answer)
+
+
+def _parted(
+    blocks: Sequence[ClosingBlock], joints: Sequence[FreeJoint], base: str
+) -> Iterator[tuple[ClosingBlock, ...]]:
+    """Sets of blocks, in their order, none of which moves a link that joints of another set stand on."""
+    sets: list[tuple[set[str], tuple[int, ...]]] = []
+    for k, block in enumerate(blocks):
+        reached = {end for joint in joints if joint.name in block.joints for end in joint.ends} - {base}
+        touching = [own for own in sets if own[0] & reached]
+        sets = [own for own in sets if not own[0] & reached]
+        members = sorted(k for _, own in touching for k in own)
+        sets.append((reached.union(*(ends for ends, _ in touching)), (*members, k)))
+    yield from (tuple(blocks[k] for k in own) for _, own in sorted(sets, key=lambda own: own[1]))
+
+
+def _group(blocks: Sequence[ClosingBlock], joints: Sequence[FreeJoint]) -> ClosingGroup:
+    names = {name for block in blocks for name in block.joints}
+    spins = tuple(spin for block in blocks for spin in block.spins)
+    whole = _block([joint for joint in joints if joint.name in names])
+    return ClosingGroup(tuple(blocks), replace(whole, spins=spins))
 
 
 def loop_blocks(record: MechanismRecord) -> tuple[ClosingBlock, ...]:

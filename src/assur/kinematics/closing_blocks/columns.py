@@ -15,7 +15,7 @@ from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import whole_orientation
-from assur.kinematics.rates.motions import motions
+from assur.kinematics.rates.motions import general, general_share, motions
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
@@ -25,6 +25,9 @@ from assur.numerics import rotations
 FloatArray = NDArray[np.float64]
 STARTS, AROUND = 96, 0.05
 """Assemblies that are looked at: so many starts by chance, and as many around home, by this share of the way."""
+
+NEAR_SINGULAR = 1e-3
+"""Share of what the least singular value of the closure is around home, below which an assembly is nearly singular."""
 
 FEW = 12
 """Assemblies that tell already of most blocks that their screws span no one space."""
@@ -37,7 +40,9 @@ def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
     """Assemblies (N, n), home first, from starts by chance and from starts around home.
 
     They are in any working and assembly mode, but what stands still about home stands as there: a Delta robot whose
-    platform is turned is another mechanism.
+    platform is turned is another mechanism. Nor is it the mechanism where there are fewer freedoms than inputs: loops
+    that move by their special dimensions, as Bricard's, may close elsewhere and be rigid. Beside home, singular ones
+    are left out, which close to half of the digits.
 
     >>> from assur.model.registry import load_record
     >>> len(assemblies_by_chance(load_record("fivebar"))) > 150
@@ -48,8 +53,12 @@ def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
     near = home + AROUND * (by_chance(record, STARTS, rng) - home)
     closed = assemble(record, np.concatenate([near, far]), far=True)
     values = np.concatenate([home[None], closed.values[closed.closed]])
-    alike = [not other for other in otherwise(record, values)]
-    return values[alike]
+    at = motions(record, values, RANK_GAP)
+    least = at.values[:, int(general(record).closure) - 1] / at.values[:, 0]
+    regular = (least > NEAR_SINGULAR * general_share(record)) | (np.arange(len(values)) == 0)
+    moving = at.ranks.freedoms >= len(record.inputs)
+    alike = np.array([not other for other in otherwise(record, values)])
+    return np.asarray(values[regular & moving & alike])
 
 
 @lru_cache(maxsize=64)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closing_blocks.ball_ends import with_ball_ends
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
@@ -59,7 +60,7 @@ class ModeSign:
         return tuple(dict.fromkeys(name for factor in self.factors for name in factor.joints))
 
     def needs_platform(self, record: MechanismRecord) -> bool:
-        """Whether a factor's block has columns of what the pose leaves free of the platform."""
+        """Whether a factor's block has columns of what a ball-ended mechanism's pose leaves free."""
         blocks = [factor.block for factor in self.factors if isinstance(factor, BlockSign)]
         return any(column >= len(record.coordinates) for block in blocks for column in block.columns)
 
@@ -79,6 +80,7 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     """
     if problem == "direct" and self_motion_dimension(record):
         return ()  # the platform is held nowhere: each assembly leads into others
+    record = with_ball_ends(record)
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
     answers = [_Solutions.of(ordered, problem, target, known) for target in _targets(ordered, known)]

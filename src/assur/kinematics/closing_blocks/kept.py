@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.cache import keep, own_content
+from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
@@ -58,9 +59,10 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
 
 def kept_signs_at(record: MechanismRecord, problem: Problem, joints: NDArray[np.float64]) -> NDArray[np.int8]:
     """These signs (..., s) at joint values (..., n); 0 where a block is singular."""
-    own = kept_signs(record, problem)
-    platform = any(sign.needs_platform(record) for sign in own)
-    screws = ScrewColumns(record, np.reshape(joints, (-1, joints.shape[-1])), platform)
+    own, ball_ended = kept_signs(record, problem), with_ball_ends(record)
+    values = ball_ended_values(record, np.reshape(joints, (-1, joints.shape[-1])))
+    platform = any(sign.needs_platform(ball_ended) for sign in own)
+    screws = ScrewColumns(ball_ended, values, platform)
     signs = [sign.signs(screws) for sign in own] if len(screws.values) else []
     columns = np.array(signs, dtype=np.int8).reshape(len(own), len(screws.values)).T
     return columns.reshape(*joints.shape[:-1], len(own))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame, child_frame
+from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
@@ -68,17 +69,19 @@ class SerialLimb:
         joints: names, from the base on.
         motions: in the same order.
         zero: the platform's frame at joint values zero.
+        length: of the mechanism, to which points compare where all of the limb are in one place.
     """
 
     joints: tuple[str, ...]
     motions: tuple[ElementaryMotion, ...]
     zero: Frame
+    length: float = 1.0
 
     def from_platform(self, platform: Frame) -> SerialLimb:
         """The same from the base to where it begins, the platform held at a frame."""
         displaced = composed(platform, inverted(self.zero))
         back = tuple(motion.moved(*displaced).back for motion in reversed(self.motions))
-        return SerialLimb(self.joints, back, displaced)
+        return replace(self, motions=back, zero=displaced)
 
 
 def serial_limb(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> SerialLimb:
@@ -104,7 +107,7 @@ def serial_limb(record: MechanismRecord, names: Sequence[str], base: str, platfo
         motions += steps if forward else [step.back for step in reversed(steps)]
         frame = child_frame(joint, parent, np.zeros(joint.type.freedoms)) if forward else parent
         link = _other(joint, link)
-    return SerialLimb(ordered, tuple(motions), frame)
+    return SerialLimb(ordered, tuple(motions), frame, characteristic_length(record))
 
 
 def _in_order(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> tuple[str, ...]:

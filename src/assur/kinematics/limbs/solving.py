@@ -81,7 +81,7 @@ def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = 
         return LimbSolutions(limb, (), np.zeros((1, 0)), np.full(1, off), 1)
     balls = [k for k, motion in enumerate(limb.motions) if motion.kind == "ball"]
     if len(balls) == 2:
-        rows, roots = _of_rod(limb.motions, balls[0], balls[1], displaced)
+        rows, roots = _of_rod(limb, balls[0], balls[1], displaced)
     else:
         rows, roots = _about_any(limb, displaced)
     columns = [index for motion in limb.motions for index in motion.indices]
@@ -91,11 +91,11 @@ def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = 
     return LimbSolutions(limb, tuple(sorted(columns)), values[kept], bent[kept], roots)
 
 
-def size_of(motions: Sequence[ElementaryMotion]) -> float:
-    """A length to which the points of a limb compare: how far they are apart, else how far away."""
+def size_of(motions: Sequence[ElementaryMotion], length: float) -> float:
+    """A length to which the points of a limb compare: how far they are apart, if that is no rounding of a length."""
     points = [motion.point for motion in motions]
     apart, away = float(np.max(np.ptp(points, axis=0))), float(np.max(np.abs(points)))
-    return (apart if apart > MEETING * away else away) or 1.0
+    return apart if apart > MEETING * max(away, length) else length
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +113,7 @@ def _centres(limb: SerialLimb) -> list[_Centre]:
     balls = [k for k, motion in enumerate(motions) if motion.kind == "ball"]
     if len(balls) > 1:
         raise NotSerialError(f"{', '.join(limb.joints)}: more than two ball joints")
-    centres = [_Centre(motions[k].point, k, k + 1) for k in balls] or [*_meetings(motions)]
+    centres = [_Centre(motions[k].point, k, k + 1) for k in balls] or [*_meetings(limb)]
     if all(motion.kind == "slide" for motion in motions):  # which any point tells
         centres = [_Centre(motions[0].point, 0, 0)]
     others = [len(motions) - (centre.end - centre.start) for centre in centres]
@@ -122,9 +122,10 @@ def _centres(limb: SerialLimb) -> list[_Centre]:
     return [centre for centre, count in zip(centres, others, strict=True) if count == min(others)]
 
 
-def _meetings(motions: Sequence[ElementaryMotion]) -> Iterator[_Centre]:
+def _meetings(limb: SerialLimb) -> Iterator[_Centre]:
     """Successive turns whose axes meet in a point; a turn alone has all points of its axis, of which one is taken."""
-    size = size_of(motions)
+    motions = limb.motions
+    size = size_of(motions, limb.length)
     turns = [k for k, motion in enumerate(motions) if motion.kind == "turn"]
     for start in turns:
         points = [motions[start].point]
@@ -158,18 +159,19 @@ def _about_any(limb: SerialLimb, displaced: Frame) -> tuple[Rows, int]:
     *others, last = _centres(limb)
     for centre in others:
         try:
-            return _about_point(limb.motions, centre, displaced)
+            return _about_point(limb, centre, displaced)
         except MovingLimbError:
             continue
-    return _about_point(limb.motions, last, displaced)
+    return _about_point(limb, last, displaced)
 
 
-def _about_point(motions: Sequence[ElementaryMotion], centre: _Centre, displaced: Frame) -> tuple[Rows, int]:
+def _about_point(limb: SerialLimb, centre: _Centre, displaced: Frame) -> tuple[Rows, int]:
     """Values of all motions, in their order, and by how much roots were made real."""
+    motions = limb.motions
     before, about, after = motions[: centre.start], motions[centre.start : centre.end], motions[centre.end :]
     others = _others(before, after, displaced)
     moved = displaced[0] @ centre.point + displaced[1]
-    closure = _point_closure(others, moved, centre.point, size_of([*motions, *others]))
+    closure = _point_closure(others, moved, centre.point, size_of([*motions, *others], limb.length))
     rows: Rows = []
     for values, bent in zip(closure.values, closure.bent, strict=True):
         near, far = values[: len(before)][::-1], values[len(before) :][::-1]
@@ -232,8 +234,9 @@ def _left(
     return left
 
 
-def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displaced: Frame) -> tuple[Rows, int]:
+def _of_rod(limb: SerialLimb, first: int, second: int, displaced: Frame) -> tuple[Rows, int]:
     """A limb with two ball joints and one other motion, or none: then the points are as far apart as they are."""
+    motions = limb.motions
     before, middle, after = motions[:first], motions[first + 1 : second], motions[second + 1 :]
     start, end = motions[first], motions[second]
     others = [*before, *middle, *after]
@@ -242,8 +245,9 @@ def _of_rod(motions: Sequence[ElementaryMotion], first: int, second: int, displa
     far_end = displaced[0] @ end.point + displaced[1]
     if not others:
         off = float(abs(np.linalg.norm(far_end - start.point) - np.linalg.norm(end.point - start.point)))
-        near_enough = int(off < CLOSE * size_of(motions))
-        closure = PointClosure(np.zeros((near_enough, 0)), np.full(near_enough, off / size_of(motions)), 1)
+        size = size_of(motions, limb.length)
+        near_enough = int(off < CLOSE * size)
+        closure = PointClosure(np.zeros((near_enough, 0)), np.full(near_enough, off / size), 1)
     elif middle:
         closure = distance_closure(middle[0], end.point, start.point, float(np.linalg.norm(far_end - start.point)))
     else:
@@ -271,7 +275,7 @@ def told_apart(limb: SerialLimb, values: FloatArray, bent: FloatArray, driven: C
     """Rows of values (K, k), in the order of their indices, that put points of the limb elsewhere, or have other
     `driven` joint values; of equal ones the most real.
     """
-    size = size_of(limb.motions)
+    size = size_of(limb.motions, limb.length)
     order = np.argsort(np.argsort([index for motion in limb.motions for index in motion.indices]))
     places = np.array([[*_places(limb.motions, row[order], driven, size)] for row in values])
     kept: list[int] = []

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,7 @@ def system(
     record: MechanismRecord, turnings: Turnings, locked: Mapping[int, float], place: Mapping[str, float]
 ) -> System:
     """The equations of all loops, and of the platform's point where `place` gives coordinates of it."""
+    record = _with_origins_on_joints(record, frozenset(link for link in turnings if turnings[link].corners is None))
     turnings = _rods_along_circles(record, turnings)
     circles = 1 + max((turning.circle for turning in turnings.values() if turning.circle is not None), default=-1)
     groups = [UnknownGroup("circle", 1 + 2 * number, 1 + 2 * number) for number in range(circles)]
@@ -90,6 +92,26 @@ def system(
     bare = System(record, np.zeros((0, column), dtype=complex), tuple(groups), slides, turnings, length)
     matrix = _equations(bare, locked, place)
     return replace(bare, matrix=matrix, groups=_alone(groups, matrix))
+
+
+@lru_cache(maxsize=64)
+def _with_origins_on_joints(record: MechanismRecord, links: frozenset[str]) -> MechanismRecord:
+    """The mechanism with a joint's point as the origin of links that have none there: a rod is seen from its end."""
+    points: dict[str, list[FloatArray]] = {}
+    for joint in record.joints.values():
+        points.setdefault(joint.parent, []).append(joint.at)
+        points.setdefault(joint.child, []).append(joint.child_at)
+    near = UNUSED * characteristic_length(record)
+    beside = {
+        link for link in links - {record.base} if link in points and min(map(np.linalg.norm, points[link])) > near
+    }
+    shift = {link: own[0] if link in beside else np.zeros(3) for link, own in points.items()}
+    moved = {
+        name: replace(joint, at=joint.at - shift[joint.parent], child_at=joint.child_at - shift[joint.child])
+        for name, joint in record.joints.items()
+    }
+    point = record.platform.point - shift[record.platform.link]
+    return replace(record, joints=moved, platform=replace(record.platform, point=point))
 
 
 def joint_values(system: System, unknowns: ComplexArray, locked: Mapping[int, float]) -> FloatArray:

@@ -7,6 +7,7 @@ C.-G. Liang 1988; M. Husty, M. Pfurner, H.-P. Schröcker 2007).
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -88,14 +89,15 @@ def held_series(limb: SerialLimb, held: Mapping[int, float]) -> SerialLimb:
             before = composed(before, displacement(motion, np.asarray(held[motion.index])))
         else:
             motions.append(motion.moved(*before))
-    return SerialLimb(limb.joints, tuple(motions), composed(before, limb.zero))
+    return replace(limb, motions=tuple(motions), zero=composed(before, limb.zero))
 
 
 def loop_of(first: SerialLimb, second: SerialLimb) -> SerialLimb:
     """Two limbs as one from the base to the platform and back, which closes where its end is at the base."""
     zero = composed(first.zero, inverted(second.zero))
     back = [motion.moved(*zero).back for motion in reversed(second.motions)]
-    return SerialLimb(first.joints + second.joints[::-1], (*first.motions, *back), zero)
+    length = max(first.length, second.length)
+    return SerialLimb(first.joints + second.joints[::-1], (*first.motions, *back), zero, length)
 
 
 def _freedoms(motion: ElementaryMotion) -> int:
@@ -104,11 +106,11 @@ def _freedoms(motion: ElementaryMotion) -> int:
 
 def _by_middle(limb: SerialLimb, platform: Frame, driven: Collection[int]) -> LimbSolutions:
     motions = limb.motions
-    whole, size = [_freedoms(motion) for motion in motions], size_of(motions)
+    whole, size = [_freedoms(motion) for motion in motions], size_of(motions, limb.length)
     cut = min(range(1, len(motions)), key=lambda k: max(sum(whole[:k]), sum(whole[k:])))
     halves = (
-        SerialLimb(limb.joints, motions[:cut], (np.eye(3), np.zeros(3))),
-        SerialLimb(limb.joints, motions[cut:], limb.zero).from_platform(platform),
+        replace(limb, motions=motions[:cut], zero=(np.eye(3), np.zeros(3))),
+        replace(limb, motions=motions[cut:]).from_platform(platform),
     )
     poses = poses_under(joined(series_conditions(half, size) for half in halves), size)
     if poses is None:
