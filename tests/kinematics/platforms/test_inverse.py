@@ -30,6 +30,7 @@ DRAFTS = {
     "RSS": ["--limb", "R[y] S S", "--count", "6", "--actuate", "1.1,2.1,3.1,4.1,5.1,6.1"],
     "ball screws": ["--limb", "{R[z]@O H[z]@O | P[z]} R[x] S", "--count", "3"],
     "ball screws in legs": ["--limb", "U[x,y] {R[z]@O H[z]@O | P[z]} S", "--count", "3"],
+    "4UPS&UPU": ["--chain", "U[x,y] P[z] U[x,y]", *["--chain", "U P S"] * 4],
     "spherical": ["--limb", "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O", "--count", "3"],
 }
 QUICK = ("6-UPS", "spherical", "3-RPS", "2UPR-SPR", "ball screws")

@@ -55,7 +55,7 @@ def closed_series(limb: SerialLimb, platform: Frame, driven: Collection[int] = (
     try:
         return limb_solutions(limb, platform, driven)
     except NotSerialError:
-        if sum(map(_freedoms, limb.motions)) > FREEDOMS or len(limb.motions) < 2:
+        if sum(map(freedoms, limb.motions)) > FREEDOMS or len(limb.motions) < 2:
             raise
     return _by_middle(limb, platform, driven)
 
@@ -100,13 +100,14 @@ def loop_of(first: SerialLimb, second: SerialLimb) -> SerialLimb:
     return SerialLimb(first.joints + second.joints[::-1], (*first.motions, *back), zero, length)
 
 
-def _freedoms(motion: ElementaryMotion) -> int:
+def freedoms(motion: ElementaryMotion) -> int:
+    """How many joint values a motion has."""
     return 3 if motion.kind == "ball" else 1
 
 
 def _by_middle(limb: SerialLimb, platform: Frame, driven: Collection[int]) -> LimbSolutions:
     motions = limb.motions
-    whole, size = [_freedoms(motion) for motion in motions], size_of(motions, limb.length)
+    whole, size = [freedoms(motion) for motion in motions], size_of(motions, limb.length)
     cut = min(range(1, len(motions)), key=lambda k: max(sum(whole[:k]), sum(whole[k:])))
     halves = (
         replace(limb, motions=motions[:cut], zero=(np.eye(3), np.zeros(3))),

@@ -67,7 +67,9 @@ def _single_loop(question: PositionQuestion, limbs: Sequence[Limb]) -> LoopSolut
     series = [limb for limb in limbs if isinstance(limb, SerialLimb)]
     if len(limbs) != LIMBS_OF_LOOP or len(series) != LIMBS_OF_LOOP:
         return None
-    solutions = closed_series(loop_of(*series), (np.eye(3), np.zeros(3)))
+    loop = loop_of(*series)
+    turned = [motion.index for motion in loop.motions]  # the platform may be turned where no point is elsewhere
+    solutions = closed_series(loop, (np.eye(3), np.zeros(3)), turned)
     right = f"its one loop by the middle link: {solutions.roots} complex assemblies"
     return _closed(question, [[_sound(solutions)]], right, solutions.roots, sure=True)
 

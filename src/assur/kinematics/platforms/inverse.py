@@ -25,6 +25,7 @@ from assur.kinematics.platforms.conditions import (
     joined,
 )
 from assur.kinematics.platforms.limbs import closed_limb, limb_conditions
+from assur.kinematics.platforms.open_poses import OpenPoses, poses_by_limb
 from assur.kinematics.platforms.poses import Poses, poses_under
 from assur.kinematics.pose import error_of
 from assur.kinematics.search import distinct
@@ -57,7 +58,7 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
         series = limbs_of(record, crossed=crossed)
         given = conditions_at(partial(_drawn, record, pose, size), size)
         conditions = joined([given, *(limb_conditions(limb, size) for limb in series)])
-        poses = poses_under(conditions, size)
+        poses = poses_under(conditions, size) or poses_by_limb(record, pose, series)
         if poses is None:
             return None
         frames = [frame for frame in poses.frames if _as_given(record, pose, frame, size)]
@@ -83,8 +84,10 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
     return LoopSolutions(joints, True, right, looked, limbs=tuple(sets[0]) if len(sets) == 1 else ())
 
 
-def _right(poses: Poses, real: int, series: Sequence[Limb], sets: Sequence[Sequence[LimbSolutions]]) -> str:
+def _right(poses: Poses | OpenPoses, real: int, series: Sequence[Limb], sets: Sequence[Sequence[LimbSolutions]]) -> str:
     whole = f"the platform as limbs hold it, {poses.complex} complex poses, {real} of them real"
+    if isinstance(poses, OpenPoses):
+        whole = f"{poses.right}, {real} real poses"
     if not sets:
         return whole
     names = ", ".join(f"{limb.joints[0]} ({own.roots})" for limb, own in zip(series, sets[0], strict=True))
