@@ -152,12 +152,12 @@ def shortest(vector: FloatArray) -> FloatArray:
 
 
 def taking(start: FloatArray, end: FloatArray) -> FloatArray:
-    """The smallest rotation (3, 3) that takes one unit vector onto another, not its opposite.
+    """The smallest rotations (..., 3, 3) that take a unit vector (3,) onto others (..., 3), not its opposite.
 
     >>> taking(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])) @ [1.0, 0.0, 0.0]
     array([0., 1., 0.])
     """
-    return _combined(cross(start, end), 1.0, 1.0 / (1.0 + start @ end))
+    return _combined(cross(start, end), 1.0, 1.0 / (1.0 + end @ start))
 
 
 def from_quaternion(quaternion: FloatArray) -> FloatArray:

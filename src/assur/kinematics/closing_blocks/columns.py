@@ -23,7 +23,7 @@ from assur.model.pose import ANGLES, LENGTHS, rate_names
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
-STARTS, AROUND = 96, 0.05
+STARTS, AROUND = 64, 0.05
 """Assemblies that are looked at: so many starts by chance, and as many around home, by this share of the way."""
 
 NEAR_SINGULAR = 1e-3

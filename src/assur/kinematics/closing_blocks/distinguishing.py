@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closing_blocks.ball_ends import with_ball_ends
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
-from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
+from assur.kinematics.closing_blocks.chains import nodes
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
 from assur.kinematics.closure import assemble
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
@@ -33,8 +34,11 @@ from assur.model.mechanism import MechanismRecord
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int_]
 SignArray = NDArray[np.int8]
-PROBLEMS, STARTS = 3, 160
-"""Problems whose solutions are to be told apart, home's first, and starts by chance for each."""
+PROBLEMS, STARTS, AT_ONCE = 3, 160, 48
+"""Problems whose solutions are to be told apart, home's first, and starts by chance for each, at most and at once."""
+
+MET = 4
+"""How often each solution is met, on the average, before no more starts are made: so what looks alike is met, too."""
 
 ROUNDS = 2
 """How often more starts are made where few of them lead to an assembly."""
@@ -110,16 +114,7 @@ class _Solutions:
     @classmethod
     def of(cls, record: MechanismRecord, problem: Problem, target: FloatArray, known: Sequence[Factor]) -> _Solutions:
         values = _solved(record, problem, target)
-        where = places(record, values)
-        solution = np.zeros(len(values), dtype=int)
-        firsts: list[int] = []
-        for row, place in enumerate(where):
-            apart = np.max(np.abs(where[firsts] - place), axis=1) if firsts else np.zeros(0)
-            if not len(apart) or np.min(apart) > SAME:
-                firsts.append(row)
-                solution[row] = len(firsts) - 1
-            else:
-                solution[row] = int(np.argmin(apart))
+        solution = _numbered(record, values)
         screws = ScrewColumns(record, values)
         signs = np.array([factor.signs(screws) for factor in known], dtype=np.int8).reshape(len(known), len(values)).T
         regular = np.all(signs != 0, axis=1)
@@ -131,6 +126,21 @@ class _Solutions:
         first = np.unique(self.solution, return_index=True)[1]
         same = np.searchsorted(self.solution[first], self.solution)
         return np.unique(self.signs != self.signs[first][same], axis=0)
+
+
+def _numbered(record: MechanismRecord, values: FloatArray) -> IntArray:
+    """Which solution (N,) each assembly is, from 0 on, by where all joints and the platform are."""
+    where = places(record, values)
+    solution = np.zeros(len(values), dtype=int)
+    firsts: list[int] = []
+    for row, place in enumerate(where):
+        apart = np.max(np.abs(where[firsts] - place), axis=1) if firsts else np.zeros(0)
+        if not len(apart) or np.min(apart) > SAME:
+            firsts.append(row)
+            solution[row] = len(firsts) - 1
+        else:
+            solution[row] = int(np.argmin(apart))
+    return solution
 
 
 def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
@@ -157,13 +167,42 @@ def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> Fl
             values = np.concatenate([target[None], turn.joints])
             return values[[not other for other in otherwise(record, values)]]
     rng = np.random.default_rng(0)
-    values = _closed(record, problem, target, np.concatenate([target[None], by_chance(record, STARTS, rng)]))
+    values = _closed(record, problem, target, np.concatenate([target[None], by_chance(record, AT_ONCE, rng)]))
+    limbs = _limbs_apart(record) if problem == "inverse" and not open_freedoms(record) else []
+    if len(limbs) > 1 and len(values) >= STARTS // 4:
+        return _exchanged(values, limbs, rng)
+    for _ in range(AT_ONCE, STARTS, AT_ONCE):
+        if len(values) >= max(STARTS // 4, MET * (1 + int(np.max(_numbered(record, values), initial=0)))):
+            return values
+        values = np.concatenate([values, _closed(record, problem, target, by_chance(record, AT_ONCE, rng))])
     for _ in range(ROUNDS):
         if not 0 < len(values) < STARTS // 4:
             break
         begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
         values = np.concatenate([values, _closed(record, problem, target, begun)])
     return values
+
+
+def _limbs_apart(record: MechanismRecord) -> list[list[int]]:
+    """Indices of the joint values of parts that hang together by neither base nor platform: each closes by itself."""
+    held = {record.base, record.platform.link}
+    node = nodes(
+        record, [(own.parent, own.child) for own in record.joints.values() if not {own.parent, own.child} & held]
+    )
+    limbs: dict[str, list[int]] = {}
+    for item in record.coordinates:
+        joint = record.joints[item.joint]
+        part = next((node[link] for link in (joint.parent, joint.child) if link not in held), joint.name)
+        limbs.setdefault(part, []).append(item.index)
+    return [*limbs.values()]
+
+
+def _exchanged(values: FloatArray, limbs: Sequence[Sequence[int]], rng: np.random.Generator) -> FloatArray:
+    """Assemblies (N, n) at one pose, and others, in which each limb stands as in one of them."""
+    others = np.empty((STARTS, values.shape[1]))
+    for columns in limbs:
+        others[:, columns] = values[rng.integers(len(values), size=STARTS)][:, columns]
+    return np.concatenate([values, others])
 
 
 def _rods_on_balls(record: MechanismRecord) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.kinematics.closing_blocks.ball_ends import with_ball_ends
+from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.blocks import PLATFORM
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign
@@ -48,8 +48,8 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     >>> print(sentence(record, distinguishing_signs(record, "inverse")[0]))
     leg1.B lies on the right of the line from leg1.A to leg1.C
     """
-    record = with_ball_ends(record)
-    screws = ScrewColumns(record, home_values(record)[None], sign.needs_platform(record))
+    home, record = ball_ended_values(record, home_values(record)), with_ball_ends(record)
+    screws = ScrewColumns(record, home[None], sign.needs_platform(record))
     if len(sign.factors) == 1:
         factor = sign.factors[0]
         if isinstance(factor, StrokeSign):

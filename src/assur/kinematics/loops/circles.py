@@ -115,29 +115,35 @@ def _with_origins_on_joints(record: MechanismRecord, links: frozenset[str]) -> M
 
 
 def joint_values(system: System, unknowns: ComplexArray, locked: Mapping[int, float]) -> FloatArray:
-    """Joint values (n,) of real unknowns (1 + c,), the first of which is 1."""
+    """Joint values (N, n) of real unknowns (N, 1 + c), the first of which is 1."""
     record = system.record
     slices = joint_graph(record).slices
-    values = np.zeros(len(record.coordinates))
+    values = np.zeros((len(unknowns), len(record.coordinates)))
     placed = {link: _orientation(system, turning, unknowns) for link, turning in system.turnings.items()}
-    lengths = {index: unknowns[column].real for index, column in system.slides.items()}
-    lengths |= {i.index: (unknowns[i.first] / unknowns[i.circle]).real for i in system.groups if i.kind == "slider"}
+    lengths = {index: unknowns[:, column].real for index, column in system.slides.items()}
+    lengths |= {
+        i.index: (unknowns[:, i.first] / unknowns[:, i.circle]).real for i in system.groups if i.kind == "slider"
+    }
     for index, length in lengths.items():
-        values[index] = length * system.length
+        values[:, index] = length * system.length
     for name, joint in record.joints.items():
-        own = values[slices[name]]
-        turned = placed[joint.parent].T @ placed[joint.child] @ joint.turn.T
+        own = values[:, slices[name]]
+        turned = _back(placed[joint.parent]) @ placed[joint.child] @ joint.turn.T
         if joint.type.turns == 1 and not joint.type.screw:
-            own[-1] = rotations.to_vector(turned) @ joint.axes[0]
+            own[:, -1] = rotations.to_vector(turned) @ joint.axes[0]
         if joint.type.ball:
             own[:] = rotations.to_vector(turned)
         if joint.type.turns == 2:
-            cross = placed[joint.parent].T @ placed[middle(joint)]
-            own[0] = rotations.to_vector(cross) @ joint.axes[0]
-            own[1] = rotations.to_vector(cross.T @ turned) @ joint.axes[1]
+            cross = _back(placed[joint.parent]) @ placed[middle(joint)]
+            own[:, 0] = rotations.to_vector(cross) @ joint.axes[0]
+            own[:, 1] = rotations.to_vector(_back(cross) @ turned) @ joint.axes[1]
     for index, value in locked.items():
-        values[index] = value
+        values[:, index] = value
     return values
+
+
+def _back(rotation: FloatArray) -> FloatArray:
+    return np.swapaxes(rotation, -1, -2)
 
 
 def _rods_along_circles(record: MechanismRecord, turnings: Turnings) -> dict[str, Turning]:
@@ -286,29 +292,36 @@ def _ball(system: System, turning: Turning) -> UnknownGroup:
 
 
 def _orientation(system: System, turning: Turning, unknowns: ComplexArray) -> FloatArray:
+    """Orientations (N, 3, 3) of a link at real unknowns (N, 1 + c)."""
+    count = len(unknowns)
     if turning.corners is not None:
-        sides = unknowns[list(_triangle(system, turning).columns)].real.reshape(2, 3)
-        return _upright(sides) @ _upright(turning.corners[1:] - turning.corners[0]).T
+        sides = unknowns[:, list(_triangle(system, turning).columns)].real.reshape(count, 2, 3)
+        return np.asarray(_upright(sides) @ _upright((turning.corners[1:] - turning.corners[0])[None])[0].T)
     if turning.line is not None:
-        wanted = unknowns[list(_ball(system, turning).columns)].real
-        if turning.line @ wanted >= 0.0:
-            return rotations.taking(turning.line, wanted)
-        across = rotations.cross(turning.line, np.eye(3)[np.argmin(np.abs(turning.line))])
-        half_turn = rotations.about_axis(across / np.linalg.norm(across), np.asarray(np.pi))
-        return np.asarray(rotations.taking(-turning.line, wanted) @ half_turn)
+        return _along(turning.line, unknowns[:, list(_ball(system, turning).columns)].real)
     if turning.circle is None or turning.axis is None:
-        return turning.rotation
-    z = unknowns[1 + 2 * turning.circle]
+        return np.broadcast_to(turning.rotation, (count, 3, 3))
+    z = unknowns[:, 1 + 2 * turning.circle]
     inner = turning.rotation
     if turning.hinge is not None:
         rod = [group for group in system.groups if group.kind == "rod"][turning.rod or 0]
-        angle = np.arctan2(unknowns[rod.first + 2].real, (unknowns[rod.first] / z).real)
+        angle = np.arctan2(unknowns[:, rod.first + 2].real, (unknowns[:, rod.first] / z).real)
         inner = rotations.about_axis(turning.hinge, angle) @ inner
     return rotations.about_axis(turning.axis, np.angle(z)) @ inner
 
 
+def _along(line: FloatArray, ends: FloatArray) -> FloatArray:
+    """Rotations (N, 3, 3) that take a direction (3,) onto others (N, 3), by way of a half turn if on its other side."""
+    across = rotations.cross(line, np.eye(3)[np.argmin(np.abs(line))])
+    half_turn = rotations.about_axis(across / np.linalg.norm(across), np.asarray(np.pi))
+    ahead = (ends @ line >= 0.0)[:, None]
+    turned = rotations.taking(line, np.where(ahead, ends, -ends))
+    return np.where(ahead[:, :, None], turned, turned @ half_turn)
+
+
 def _upright(sides: FloatArray) -> FloatArray:
-    """The frame (3, 3) whose x axis is along the first of two vectors (2, 3), and whose xy plane contains both."""
-    x = sides[0] / np.linalg.norm(sides[0])
-    z = rotations.cross(x, sides[1]) / np.linalg.norm(rotations.cross(x, sides[1]))
-    return np.stack([x, rotations.cross(z, x), z], axis=1)
+    """Frames (N, 3, 3) whose x axis is along the first of two vectors (N, 2, 3), and whose xy plane contains both."""
+    x = sides[:, 0] / np.linalg.norm(sides[:, 0], axis=1, keepdims=True)
+    z = rotations.cross(x, sides[:, 1])
+    z = z / np.linalg.norm(z, axis=1, keepdims=True)
+    return np.stack([x, rotations.cross(z, x), z], axis=2)

@@ -234,13 +234,15 @@ def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> Loo
         listed = " and ".join(names[number] for number in error.groups)
         nearly = "nearly " if error.error else ""
         return _nothing(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
-    starts = np.array([joint_values(equations, row, locked) for row in found.unknowns])
-    starts = starts.reshape(-1, len(record.coordinates))
+    starts = joint_values(equations, found.unknowns, locked)
+    order = np.argsort(found.bent, kind="stable")
+    kept = order[distinct(record, starts[order])]  # a rod may stand in two ways in which no joint is elsewhere
+    starts, bent = starts[kept], found.bent[kept]
     joints = question.closed(starts)
     right = _right(equations, found)
     if question.tilt_open:
         return LoopSolutions(joints, False, f"not proved, since {OPEN}: {right}", found.looked)
-    sure = np.repeat(found.bent <= DOUBTFUL, len(starts) // max(len(found.bent), 1))
+    sure = bent <= DOUBTFUL
     if not sure.all() and len(question.closed(starts[sure])) < len(joints):
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", found.looked)
     return LoopSolutions(joints, True, right, found.looked)
