@@ -98,3 +98,19 @@ def test_a_heli4_has_as_many_assemblies_as_a_search_finds():
     poses, others = (pose_of(record, own.joints[own.exists]) for own in (answer, searched))
     assert len(poses) == len(others) == 8
     assert poses[np.lexsort(poses.T[:3].round(3))] == pytest.approx(others[np.lexsort(others.T[:3].round(3))], abs=1e-6)
+
+
+def test_the_inverse_of_a_heli4_holds_its_screw_within_half_a_turn_of_home():
+    """Sixteen with each way in which its plates stand; a screw that is threaded a turn on makes others, as well closed."""
+    record = load_record(HELI4)
+    home = home_values(record)
+    pose = pose_of(record, home) + np.array([5.0, -3.0, 4.0, 0.3])
+    found = inverse(record, pose)
+    assert found.complete
+    assert "within half a turn of home's, since each turn more is another solution" in found.right
+    joints = found.joints[found.exists]
+    (screw,) = [item.index for item in record.coordinates if record.joints[item.joint].type.screw]
+    assert np.max(np.abs(joints[:, screw] - home[screw])) <= np.pi + 1e-9
+    assert np.max(closure_error(record, joints)) < 1e-9
+    assert np.max(np.abs(pose_of(record, joints) - pose)) < 1e-7
+    assert len(joints) % 16 == 0

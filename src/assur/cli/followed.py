@@ -24,7 +24,7 @@ from assur.kinematics.border import input_names
 from assur.kinematics.following.course import Turns
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.home_mode import home_mode_at
-from assur.kinematics.following.path import Path, Stop
+from assur.kinematics.following.path import WORDS, Path, Stop
 from assur.kinematics.turns import periodic
 from assur.mechanism import Mechanism
 from assur.results.answers.path import NoPath, PathAnswer
@@ -129,12 +129,14 @@ def _shown(record: Mechanism, path: Path, data: PathAnswer) -> Iterable[Renderab
     along = "poses" if path.prescribed == "poses" else "inputs"
     end = "the end was reached" if stop is None else f"stopped, {stop.kind}"
     yield heading(f"{record.name}, path along {along}: {end}")
+    if path.left:
+        yield f"It begins at {WORDS[path.left]}, and leaves it."
     if stop is not None:
         yield _stop(stop, style)
     else:
         yield (
-            f"No singularity was seen at its {count(len(path), 'point')}, and no determinant changed its sign between"
-            " them; one that is passed and passed back within a step is not seen."
+            f"No {'other ' if path.left else ''}singularity was seen at its {count(len(path), 'point')}, and no"
+            " determinant changed its sign between them; one that is passed and passed back within a step is not seen."
         )
     if path.remark:
         yield f"At the end {path.remark}."

@@ -323,14 +323,63 @@ def test_nowhere_to_go_is_a_path_of_one_point():
     assert (len(path), path.stopped) == (1, None)
 
 
-def test_a_start_in_a_singularity_stops_at_once():
+def test_a_start_in_a_singularity_of_the_inputs_is_left_along_poses():
     mechanism = assur.load("fivebar")
     example = singular_examples(mechanism)[0]
     assert example.factor.name == "sin_rods"
     path = follow(mechanism, example.joints, poses=example.pose + np.array([5.0, 5.0]))
-    assert path.stopped is not None
-    assert path.stopped.share == 0.0
-    assert path.stopped.kind in ("parallel", "self_motion")
+    assert path.left == "parallel"
+    assert path.stopped is None
+    held = follow(mechanism, example.joints, inputs=inputs_of(mechanism, example.joints) + 0.1)
+    assert held.stopped is not None
+    assert held.stopped.share == 0.0
+    assert held.stopped.kind in ("parallel", "self_motion")
+
+
+RPR = """
+format = 1
+name = "rpr"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "plate", pose = ["x", "y", "phi"] }
+[links]
+base = {}
+plate = {}
+[limbs.leg]
+repeat = { about = "z", count = 3 }
+[limbs.leg.links]
+tube = {}
+rod = {}
+[limbs.leg.joints]
+A = { type = "revolute", parent = "base", child = "tube", at = [200, 0, 0], axis = "z" }
+B = { type = "prismatic", parent = "tube", child = "rod", at = [0, 0, 0], child_at = [60, 0, 0], axis = "-x" }
+C = { type = "revolute", parent = "rod", child = "plate", at = [60, 0, 0], child_at = [60, 0, 0], axis = "z" }
+[limbs.leg.inputs]
+B = { name = "q" }
+[limbs.leg.home]
+A = 0
+B = 140
+C = 0
+"""
+
+
+def test_a_parallel_singularity_at_the_start_is_left_along_poses_and_not_along_inputs(tmp_path, capsys):
+    """All three legs point to the middle at home, where they hold the platform's turning by nothing."""
+    path = tmp_path / "rpr.toml"
+    path.write_text(RPR)
+    record = load_record(path)
+    home = home_values(record)
+    gone = follow(record, home, poses=[10.0, 5.0, 0.2])
+    assert gone.stopped is None
+    assert gone.left == "parallel"
+    assert "a parallel singularity left, no other seen" in str(gone)
+    assert np.allclose(gone.poses[-1], [10.0, 5.0, 0.2])
+    assert np.min(gone.smallest["inputs"][1:]) > 1e-5
+    held = follow(record, home, inputs=inputs_of(record, home) + 5.0)
+    assert (held.stopped.share, held.stopped.kind, held.left) == (0.0, "parallel", "")
+    assert main(["follow", str(path), "--along", "inputs", "--to", "150", "145", "148"]) == 6
+    assert "The start is at a parallel singularity, which no one way leaves: begin beside it" in capsys.readouterr().out
 
 
 def test_a_step_takes_as_much_work_on_a_long_path_as_on_a_short_one():

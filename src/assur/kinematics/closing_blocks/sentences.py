@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
@@ -48,8 +50,7 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     >>> print(sentence(record, distinguishing_signs(record, "inverse")[0]))
     leg1.B lies on the right of the line from leg1.A to leg1.C
     """
-    home, record = ball_ended_values(record, home_values(record)), with_ball_ends(record)
-    screws = ScrewColumns(record, home[None], sign.needs_platform(record))
+    screws = _at_home(record, sign.needs_platform(with_ball_ends(record)))
     if len(sign.factors) == 1:
         factor = sign.factors[0]
         if isinstance(factor, StrokeSign):
@@ -62,6 +63,11 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     if not sign.signs(screws)[0]:
         return f"the loops of {joints} stand on one side of where they are singular; at home they are"
     return f"the loops of {joints} stand on home's side of where they are singular"
+
+
+@lru_cache(maxsize=64)
+def _at_home(record: MechanismRecord, platform: bool) -> ScrewColumns:
+    return ScrewColumns(with_ball_ends(record), ball_ended_values(record, home_values(record))[None], platform)
 
 
 def _dyad_side(screws: ScrewColumns, factor: BlockSign) -> str:

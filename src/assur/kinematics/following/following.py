@@ -16,7 +16,7 @@ from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.following.course import Course, Prescribed, Turns, course
 from assur.kinematics.following.locked import general_ranks, smallest
 from assur.kinematics.following.path import Path
-from assur.kinematics.following.ranks import Blocked, RankGuard
+from assur.kinematics.following.ranks import FIRST, Blocked, RankGuard
 from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.stopping import stop_at
 from assur.kinematics.following.ways import Stretch, system_of
@@ -66,7 +66,8 @@ def follow(
     Returns:
         The points, adaptive steps apart, and `stopped`: None, or a `Stop` that says before what the path ends: a
         singularity (serial, parallel, comprehensive, constraint), the border of reach being one, or a limit.
-        A singularity that is touched, or passed and passed back, between two points is not seen.
+        A singularity that is touched, or passed and passed back, between two points is not seen. A start that is
+        singular where nothing is prescribed is left: poses go on from a parallel singularity, inputs from a serial one.
 
     Errors:
         UsageError: shapes, both or neither of inputs and poses, a start that is not assembled.
@@ -123,8 +124,9 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
 def walked(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> bool:
     """Whether the end of a way is come to from joint values (n,); the guard has the points up to there."""
     matrix = system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
-    places, steps = Places(np.zeros(1), start[None].copy(), matrix), np.array([pace.largest])
+    places = Places(np.zeros(1), start[None].copy(), matrix)
     going = guard.begun(Stretch(record, way, 0), places)
+    steps = np.array([min(FIRST, pace.largest) if guard.leaving else pace.largest])
     for segment, end in enumerate(way.shares[1:]):
         going = going and bool(followed(Stretch(record, way, segment), places, guard, pace, steps, float(end))[0])
     return going

@@ -12,6 +12,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
 from assur.kinematics.border import input_names, joint_names
 from assur.kinematics.following.course import Prescribed
+from assur.kinematics.following.ranks import SINGULAR
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
@@ -22,6 +23,7 @@ FloatArray = NDArray[np.float64]
 ANOTHER = 1e-6
 """Two configurations that differ by more, in rad or characteristic lengths, are different ones."""
 
+SINGULARITIES = ("serial", "parallel", "comprehensive", "constraint", "self_motion")
 WORDS = {
     "serial": "a serial singularity",
     "parallel": "a parallel singularity",
@@ -68,6 +70,8 @@ class Stop:
 
     def __str__(self) -> str:
         parts = [f"stopped at {100 * self.share:.6g} % of the way before {WORDS[self.kind]}"]
+        if self.share == 0.0 and self.kind in SINGULARITIES and abs(self.value) <= SINGULAR:
+            parts = [f"the start is at {WORDS[self.kind]}, which no one way leaves: begin beside it"]
         parts.append(f"{self.quantity} is {self.value:.3g}{' already' if self.value < 0 else ''}")
         if self.factor:
             parts.append(f"{self.factor} -> 0: {self.meaning}")
@@ -111,7 +115,14 @@ class Path:
         head = f"path of {self.record.name} along {self.prescribed}, {len(self)} points"
         if self.stopped is not None:
             return f"{head}; {self.stopped}"
-        return f"{head}, no singularity seen{'; ' + self.remark if self.remark else ''}"
+        seen = f"{WORDS[self.left]} left, no other seen" if self.left else "no singularity seen"
+        return f"{head}, {seen}{'; ' + self.remark if self.remark else ''}"
+
+    @property
+    def left(self) -> str:
+        """The singularity at the start that the path has left: "serial", "parallel", or ""."""
+        other, kind = ("inputs", "parallel") if self.prescribed == "poses" else ("poses", "serial")
+        return kind if len(self) > 1 and self.smallest[other][0] <= SINGULAR else ""
 
     @property
     def closed(self) -> bool:

@@ -59,6 +59,10 @@ FLOOR = 1e-6
 SINGULAR = 1e-6
 """A smallest singular value up to here is zero to begin with."""
 
+FIRST = 1e-3
+"""Share of the way of the first step from a start that is singular where nothing is prescribed: what lies nearer to it
+than that is not told apart from it."""
+
 FINE, COARSE = 1e-14, 1e-12
 """Tolerances of the corrector: the coarse one where it is enough for ACCURACY."""
 
@@ -146,14 +150,21 @@ class RankGuard:
     refused: list[Blocked] = field(default_factory=list)
 
     def begun(self, way: Way, places: Places) -> bool:
-        """Whether a way can be begun; not from a singular start, nor from one outside the limits."""
+        """Whether a way can be begun; not where what is prescribed is singular at the start, nor outside the limits."""
         record = way.mechanism(float(places.shares[0]))
         self.points.append(self._point(places, other_side(record, self.held, places.joints, places.known)))
-        if _least(self.points[0]) <= SINGULAR:
+        if self.points[0].own.sizes[-1] <= SINGULAR:
             self.refused.append(Blocked("lost"))
         else:
             self.refused.extend(self._outside(record, places.joints[0]))
         return not self.refused
+
+    @property
+    def leaving(self) -> bool:
+        """Whether the start is singular where nothing is prescribed, and no step is taken yet: what is lost already can
+        neither be lost nor kept.
+        """
+        return len(self.points) == 1 and bool(self.points[0].other.sizes[-1] <= SINGULAR)
 
     def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
         """Where a step leads, what forbids it, and the step that may follow."""
@@ -183,7 +194,8 @@ class RankGuard:
         if away > CLOSE * moved + last.noise:
             return self._refused(at, ends, Blocked("far"))
         other = other_side(record, self.held, trial.places.joints, trial.places.known)
-        kept, kept_other = last.own.kept(trial.places.known[0]), last.other.kept(other[0])
+        kept = last.own.kept(trial.places.known[0])
+        kept_other = 1.0 if self.leaving else last.other.kept(other[0])
         if min(kept, kept_other) < KEPT:
             return self._refused(at, ends, Blocked("lost"))
         broken = self._outside(record, trial.places.joints[0])
@@ -193,7 +205,8 @@ class RankGuard:
         if places.known is not trial.places.known:
             other = other_side(record, self.held, places.joints, places.known)
         point = self._point(places, other)
-        if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < SAFE * point.noise:
+        least_other = SINGULAR if self.leaving else SAFE * point.noise
+        if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < least_other:
             return self._refused(at, ends, Blocked("lost"))
         bent = away - last.noise  # a way as short as the noise is straight for all that can be seen
         after = step * min(2.0, AIM * CLOSE * moved / bent if bent > 0.0 else 2.0)
@@ -227,10 +240,6 @@ class RankGuard:
         rooms = {float(limit.margin(joints)): limit for limit in self.bounds(record, joints)}
         least = min(rooms, default=0.0)
         return [Blocked("limit", rooms[least])] if least < 0.0 else []
-
-
-def _least(point: PathPoint) -> float:
-    return float(min(point.own.sizes[-1], point.other.sizes[-1]))
 
 
 def _settled(way: Way, places: Places, rows: IntArray) -> Places:

@@ -195,7 +195,10 @@ def _shift(record: MechanismRecord, joint: Joint, locked: Mapping[int, float]) -
     for axis, index in _sliding(record, joint):
         shift = shift + locked.get(index, 0.0) * axis
     if joint.type.screw:
-        shift = shift + locked[joint_graph(record).slices[joint.name].start] * joint.pitch / (2 * np.pi) * joint.axes[0]
+        index = joint_graph(record).slices[joint.name].start
+        if index not in locked:
+            raise NotCirclesError(f"{joint.name} is {joint.type.name}")
+        shift = shift + locked[index] * joint.pitch / (2 * np.pi) * joint.axes[0]
     return shift
 
 

@@ -75,10 +75,8 @@ def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Ite
             values = np.array([locked.get(start + index, np.nan) for index in range(len(step.kinds))])
             if np.all(np.isfinite(values)):
                 yield Stiff(links[k], links[k + 1], _turned(joint, step, values) @ after)
-            elif step.kind == "turn":
+            elif step.kind != "ball":
                 yield HingeTurn(links[k], links[k + 1], after, joint.axes[step.direction])
-            elif step.kind == "screw":
-                raise NotCirclesError(f"{name} is {joint.type.name}")
 
 
 def _turned(joint: Joint, step: Step, values: FloatArray) -> FloatArray:

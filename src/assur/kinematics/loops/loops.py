@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.tree import joint_graph
 from assur.joint_graph.turns import turn_relations
 from assur.kinematics import border
 from assur.kinematics.closure import assemble
@@ -220,7 +221,9 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
 
 def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> LoopSolutions:
     """The assemblies in which links stand in one way."""
-    record, locked = question.record, question.locked
+    record = question.record
+    told = _told_screws(record, turning, question.locked)
+    locked = question.locked | told
     try:
         equations = system(record, turning, locked, question.place)
     except NotCirclesError as error:
@@ -240,12 +243,29 @@ def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> Loo
     starts, bent = starts[kept], found.bent[kept]
     joints = question.closed(starts)
     right = _right(equations, found)
+    if told:
+        screws = " and ".join(record.coordinates[index].joint for index in told)
+        right += f"; {screws} within half a turn of home's, since each turn more is another solution"
     if question.tilt_open:
         return LoopSolutions(joints, False, f"not proved, since {OPEN}: {right}", found.looked)
     sure = bent <= DOUBTFUL
     if not sure.all() and len(question.closed(starts[sure])) < len(joints):
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", found.looked)
     return LoopSolutions(joints, True, right, found.looked)
+
+
+def _told_screws(
+    record: MechanismRecord, turning: Mapping[str, Turning], locked: Mapping[int, float]
+) -> dict[int, float]:
+    """Index -> value, next to home's, of screws between links that stand in known orientations."""
+    told, slices = {}, joint_graph(record).slices
+    for name, joint in record.joints.items():
+        near, far, index = turning[joint.parent], turning[joint.child], slices[name].start
+        if joint.type.screw and index not in locked and near.still and far.still:
+            turned = rotations.to_vector(near.rotation.T @ far.rotation @ joint.turn.T) @ joint.axes[0]
+            home = home_values(record)[index]
+            told[index] = float(home + rotations.nearest_turn(turned - home))
+    return told
 
 
 def _solved(equations: System) -> tuple[System, Solved]:

@@ -53,6 +53,11 @@ class Turning:
     corners: FloatArray | None = None
     triangle: int | None = None
 
+    @property
+    def still(self) -> bool:
+        """Whether the link stands in one orientation."""
+        return self.circle is None and self.line is None and self.corners is None
+
 
 def turnings(
     record: MechanismRecord,
