@@ -101,7 +101,7 @@ def test_a_heli4_has_as_many_assemblies_as_a_search_finds():
 
 
 def test_the_inverse_of_a_heli4_holds_its_screw_within_half_a_turn_of_home():
-    """Sixteen with each way in which its plates stand; a screw that is threaded a turn on makes others, as well closed."""
+    """Sixteen with each way in which its plates stand; a screw that is threaded a turn on makes others."""
     record = load_record(HELI4)
     home = home_values(record)
     pose = pose_of(record, home) + np.array([5.0, -3.0, 4.0, 0.3])
