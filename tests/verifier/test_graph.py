@@ -16,8 +16,9 @@ from assur.model.file.reader import examined
 from assur.model.registry import load_record
 from assur.numerics import rotations
 from assur.verifier.formula import FloatNumbers
-from assur.verifier.graph import Graph, about, taking
+from assur.verifier.graph import Graph
 from assur.verifier.mechanism import mechanism
+from assur.verifier.vectors import about, taking
 
 TESTS = Path(__file__).parents[1]
 FILES = [*sorted(TESTS.glob("kinematics/**/*.toml")), TESTS / "model/fourbar.toml", TESTS / "model/file/delta.toml"]

@@ -15,13 +15,14 @@ from typing import Any
 
 from assur.verifier.field import CircleField, Element, NoExactError, NoRootError
 from assur.verifier.formula import AngleSum, FloatNumbers
-from assur.verifier.graph import (
+from assur.verifier.graph import SIZES, STEPS, Frame, Graph
+from assur.verifier.mechanism import COORDINATES, mechanism
+from assur.verifier.places import CIRCLE, DrawnPlace, FormulaTape, RatedNumber, RootPlan, Sizing
+from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
+from assur.verifier.sizes import Size
+from assur.verifier.vectors import (
     ONE,
-    SIZES,
-    STEPS,
     ZERO,
-    Frame,
-    Graph,
     Matrix,
     Vector,
     about,
@@ -35,10 +36,6 @@ from assur.verifier.graph import (
     times,
     transposed,
 )
-from assur.verifier.mechanism import COORDINATES, mechanism
-from assur.verifier.places import CIRCLE, DrawnPlace, FormulaTape, RatedNumber, RootPlan, Sizing
-from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
-from assur.verifier.sizes import Size
 
 SURE = 1e-15
 ENOUGH = 1e-18

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 from assur.verifier import sizes
 from assur.verifier.field import CircleField, Element, NoExactError, NoRootError, few_digits, simplest
 from assur.verifier.formula import AngleSum, joined, plain
-from assur.verifier.graph import plus, times
 from assur.verifier.mechanism import FileMechanism
 from assur.verifier.sizes import Size
+from assur.verifier.vectors import plus, times
 
 CIRCLE = ("cos", "sin")
 """Before the name of an angle among the dimensions, whose cosine or sine a number is."""
