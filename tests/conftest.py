@@ -21,7 +21,7 @@ os.environ.setdefault("ASSUR_CACHE", str(Path(__file__).parents[1] / "build" / "
 
 # No example database: what a run draws depends on nothing that an earlier one left. Quick draws the same examples each
 # time; deep draws others for each seed, which `make test-deep` prints. Either prints what replays a failing example.
-settings.register_profile("quick", max_examples=100, derandomize=True, deadline=None, database=None, print_blob=True)
+settings.register_profile("quick", max_examples=50, derandomize=True, deadline=None, database=None, print_blob=True)
 settings.register_profile(
     "deep",
     max_examples=2000,

@@ -29,7 +29,7 @@ from hypothesis import strategies as st
 SEEN = []
 
 
-@examples(7)
+@examples(8)
 @given(st.integers())
 def test_five(n):
     SEEN.append(n)
@@ -101,7 +101,7 @@ def test_deep_tests_run_where_the_expression_names_them(tmp_path):
     assert "NOT RUN" not in ran.stdout.replace("NOT RUN: the tests", "")
 
 
-@pytest.mark.parametrize(("profile", "drawn"), [("quick", 7), ("deep", 140)])
+@pytest.mark.parametrize(("profile", "drawn"), [("quick", 4), ("deep", 160)])
 def test_the_profile_says_how_many_examples_are_drawn_and_a_failure_how_to_replay_it(tmp_path, profile, drawn):
     lay(tmp_path, [DRAWS])
     ran = run(tmp_path, "-s", f"--hypothesis-profile={profile}", "--hypothesis-seed=1")

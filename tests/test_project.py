@@ -196,7 +196,7 @@ def test_ci_runs_both_commands_and_fails_with_either(tmp_path, failing):
     stand_in.chmod(0o755)
     environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
     ran = subprocess.run([ROOT / ".ci" / "run"], env=environment, capture_output=True, text=True)
-    assert ran.stdout.split("\n") == ["make test", "make check", ""]
+    assert ran.stdout.split("\n") == ["make .venv/installed-all", "make test", "make check", ""]
     assert (ran.returncode == 0) == (failing == "nothing")
 
 
@@ -208,7 +208,7 @@ def test_the_processes_that_ci_starts_share_their_bytecode(tmp_path):
     stand_in.chmod(0o755)
     environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1"}
     ran = subprocess.run([ROOT / ".ci" / "run"], env=environment, capture_output=True, text=True)
-    assert ran.stdout.splitlines() == [f"False {ROOT / 'build' / 'bytecode'}"] * 2
+    assert ran.stdout.splitlines() == [f"False {ROOT / 'build' / 'bytecode'}"] * 3
 
 
 def test_no_test_has_a_limit_of_time():

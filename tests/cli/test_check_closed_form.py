@@ -59,8 +59,10 @@ QUESTIONS = {
 }
 
 
-@pytest.mark.parametrize("wrong", [RADICAND, FACTORS], ids=["radicand", "factors"])
-@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize(
+    ("question", "wrong"),
+    [*((question, RADICAND) for question in QUESTIONS), ("inverse", FACTORS), ("certify", FACTORS)],
+)
 def test_nothing_is_answered_or_proved(assur_cli, folder, monkeypatch, tmp_path, question, wrong):
     monkeypatch.chdir(tmp_path)
     command, *option = question.split()

@@ -1,11 +1,8 @@
-"""How many examples a property is tried with: a number of its own in the profile `quick`, in proportion in `deep`."""
+"""How many examples a property is tried with, in proportion to what the profile draws: half as many in `quick`."""
 
 from hypothesis import settings
 
-QUICK = settings.get_profile("quick").max_examples
 
-
-def examples(quick: int) -> settings:
-    """Settings of a test that draws `quick` examples in the profile of that name, and as many times more in another
-    as that profile asks for."""
-    return settings(max_examples=quick * settings().max_examples // QUICK)
+def examples(count: int) -> settings:
+    """Settings of a test that draws `count` examples in a profile of a hundred."""
+    return settings(max_examples=max(1, count * settings().max_examples // 100))

@@ -107,7 +107,7 @@ def opened(browser, address, standing):
     """
     own, heard, used = [], [], []
 
-    def open_(name, *, width=1300, height=800, dark=False, at="", **given):
+    def open_(name, *, width=900, height=600, dark=False, at="", **given):
         if at or (name, width, height, dark, given) in used:
             tab, said = listened(browser, width, height, dark)
             own.append(tab)

@@ -8,6 +8,7 @@ mechanism which is not built in runs with leave only (`assur.model.consent`).
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import cast
@@ -104,7 +105,9 @@ def _function(
     return cast("Callable[[MechanismRecord], object]", member)
 
 
+@lru_cache(maxsize=16)
 def _module(file: Path, text: str, name: str) -> ModuleType:
+    """The same for all errata of a file, so that it may keep what several of its functions compute."""
     module = ModuleType(name)
     module.__file__ = str(file)
     exec(compile(text, str(file), "exec"), vars(module))  # built in, or with leave

@@ -38,7 +38,7 @@ def signs_of(record, problem, values):
 @pytest.mark.parametrize(
     ("name", "walks", "steps"),
     [
-        *((name, 16, 40) for name in QUICK),
+        *((name, 8, 40) for name in QUICK),
         *(pytest.param(name, 50, 200, marks=pytest.mark.deep) for name in [*QUICK, *DEEP]),
     ],
 )
@@ -181,7 +181,7 @@ def own(request, tmp_path):
     "own", [*SHORT, *(pytest.param(name, marks=pytest.mark.deep) for name in OWN if name not in SHORT)], indirect=True
 )
 def test_a_name_of_a_draft_changes_at_singularities_alone(own, problem):
-    shares = changes(own, problem, lambda values: signs_of(own, problem, values), 20, 60)
+    shares = changes(own, problem, lambda values: signs_of(own, problem, values), 10, 60)
     assert np.max(shares, initial=0.0) < CROSSED
 
 

@@ -23,7 +23,7 @@ def copied(tmp_path):
     def result(name, *changes):
         source = OWN / name if (OWN / name).is_dir() else BUILT_IN / name
         folder = tmp_path / name
-        shutil.copytree(source, folder)
+        shutil.copytree(source, folder, ignore=shutil.ignore_patterns("__pycache__"))
         path = folder / CLOSED_FORM
         text = path.read_text(encoding="utf-8")
         for before, after in changes:

@@ -68,7 +68,7 @@ def one_collinear_set(record):
     u1, u2 = (quantity(record, record.modes.working[name], joints) for name in ("u1", "u2"))
     length = record.values.l2
     gap = float(np.max(np.abs(u1 * u1 - u2 * u2))) / length**2
-    examples = [example for example in singular_examples(record) if example.factor.name in ("u1", "u2")]
+    examples = [example for example in _all_examples(record) if example.factor.name in ("u1", "u2")]
     verdicts = [verdict(record, example.pose, example.mode) for example in examples]
     together = all(max(abs(item.relative[name]) for name in ("u1", "u2")) <= FACTOR_TOLERANCE for item in verdicts)
     dependent = all(
