@@ -8,22 +8,9 @@ from typing import Any
 from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, hops, point
 from assur.verifier.field import NoExactError
 from assur.verifier.formula import NumberType, number
-from assur.verifier.graph import (
-    ONE,
-    STEPS,
-    ZERO,
-    Graph,
-    Matrix,
-    Vector,
-    about,
-    add,
-    plus,
-    product,
-    scaled,
-    subtract,
-    times,
-)
+from assur.verifier.graph import STEPS, Graph
 from assur.verifier.mechanism import COORDINATES, FileMechanism
+from assur.verifier.vectors import ONE, ZERO, Matrix, Vector, about, add, plus, product, scaled, subtract, times
 
 ANGLES = ("phi", "theta", "psi")
 LENGTHS = ("x", "y", "z")

@@ -14,9 +14,9 @@ from assur.verifier.derivations.assembly import FileAssembly, given_names
 from assur.verifier.derivations.turning import ClaimedTurn, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
-from assur.verifier.graph import Matrix, Vector, apply, product, subtract, transposed
 from assur.verifier.mechanism import FileMechanism
 from assur.verifier.reading import RefusedError
+from assur.verifier.vectors import Matrix, Vector, apply, product, subtract, transposed
 
 TRIES = 200
 """Places that are drawn until every radicand has a root there."""

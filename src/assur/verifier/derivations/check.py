@@ -18,9 +18,9 @@ from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.terms import Quotients, Term, WrittenNumbers, divisors, symbol, term
 from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, point, reached, rods, same
 from assur.verifier.formula import AngleSum, plain, value
-from assur.verifier.graph import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 from assur.verifier.mechanism import FileMechanism, mechanism
 from assur.verifier.reading import MalformedError, RefusedError, printable
+from assur.verifier.vectors import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 
 FORMAT, VERSION = "assur derivation", 1
 LONGEST = 1_000_000

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from assur.verifier.field import NoExactError
-from assur.verifier.graph import (
+from assur.verifier.graph import STEPS, Graph
+from assur.verifier.mechanism import FileMechanism, FileParallelogram
+from assur.verifier.reading import RefusedError
+from assur.verifier.vectors import (
     ONE,
-    STEPS,
-    Graph,
     Matrix,
     Vector,
     about,
@@ -28,8 +29,6 @@ from assur.verifier.graph import (
     times,
     transposed,
 )
-from assur.verifier.mechanism import FileMechanism, FileParallelogram
-from assur.verifier.reading import RefusedError
 
 Circle = tuple[Any, Any]
 IsZero = Callable[[Any], bool]
