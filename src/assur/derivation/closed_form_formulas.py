@@ -22,6 +22,19 @@ from assur.model.pose import ANGLES, LENGTHS
 from assur.numerics.vectors import dot
 
 
+@dataclass(frozen=True)
+class SignProduct:
+    """What a root's sign has beside its name, where it is a product.
+
+    Attributes:
+        names: of further signs.
+        divisors: what was divided by, whose signs it has too.
+    """
+
+    names: tuple[str, ...] = ()
+    divisors: tuple[sympy.Expr, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class ClosedFormFormulas:
     """Formulas of a mechanism whose direct and inverse problems were solved.
@@ -30,12 +43,14 @@ class ClosedFormFormulas:
         direct, inverse: the solutions.
         signs: problem, symbol of a root -> the name of its sign, and whether it is that sign or its opposite.
         factor_signs: name of a sign that no root has -> a formula that has it.
+        products: problem, symbol of a root -> what its sign is multiplied with.
     """
 
     direct: AnalyticSolution
     inverse: AnalyticSolution
     signs: Mapping[tuple[Problem, sympy.Symbol], tuple[str, int]]
     factor_signs: Mapping[str, sympy.Expr] = field(default_factory=dict)
+    products: Mapping[tuple[Problem, sympy.Symbol], SignProduct] = field(default_factory=dict)
 
     def solution(self, problem: Problem) -> AnalyticSolution:
         """Of one problem."""
@@ -162,16 +177,60 @@ class ClosedFormFormulas:
         return condition.name if condition.is_Symbol else f"c{number}_{link}"
 
     @cached_property
+    def direct_divisors(self) -> list[sympy.Expr]:
+        """What the direct problem divides by and what is no sum of squares: its sign may be either."""
+        squares = {own.symbol for own in self.direct.definitions if _is_sum_of_squares(own.formula)}
+        divisors = [own for name, own in self.margins("direct") if own not in {*squares}]
+        radicands = {root.radicand for root in self.direct.roots}
+        tilted = {1 + dot(tilt.line, tilt.direction) for tilt in self.joints.tilts}
+        return [own for own in dict.fromkeys(divisors) if own not in radicands | tilted]
+
+    def of_direct(self, value: sympy.Expr) -> sympy.Expr:
+        """A formula of the direct problem in the unknowns of the inverse one."""
+        return self.in_unknowns(self.direct, value).subs(self.inputs_in_unknowns)
+
+    def sign_product(self, problem: Problem, root: sympy.Symbol) -> SignProduct:
+        """What the sign of a root is multiplied with."""
+        return self.products.get((problem, root), SignProduct())
+
+    def merging(self, problem: Problem, root: sympy.Symbol) -> tuple[str, ...]:
+        """The signs that change where a root vanishes: those of whose products it is one factor."""
+        return tuple(name for name, roots in self._named_roots(problem).items() if root in roots)
+
+    def _named_roots(self, problem: Problem) -> dict[str, set[sympy.Symbol]]:
+        """Name of a sign -> the roots whose signs it is the product of: the products of names, solved for these."""
+        names = {
+            root.symbol: {self.signs[problem, root.symbol][0], *self.sign_product(problem, root.symbol).names}
+            for root in self.solution(problem).roots
+        }
+        made = {symbol: {symbol} for symbol in names}
+        pivots: dict[str, sympy.Symbol] = {}
+        for symbol in names:
+            name = min(names[symbol])
+            pivots[name] = symbol
+            for other in names:
+                if other != symbol and name in names[other]:
+                    names[other], made[other] = names[other] ^ names[symbol], made[other] ^ made[symbol]
+        order = {self.signs[problem, symbol][0]: None for symbol in names}
+        return {name: made[pivots[name]] for name in order}
+
+    @cached_property
     def sign_values(self) -> dict[str, sympy.Expr]:
         """Name of a sign -> what it is the sign of, in the unknowns of the inverse problem and the pose."""
         values = dict(self.factor_signs)
         for solution in (self.inverse, self.direct):
-            for root in solution.roots:
-                name, sense = self.signs[solution.symbols.problem, root.symbol]
-                value = self.in_unknowns(solution, root.quantity)
+            problem = solution.symbols.problem
+            quantities = {
+                root.symbol: self.signs[problem, root.symbol][1]
+                * root.quantity
+                * sympy.prod(self.sign_product(problem, root.symbol).divisors)
+                for root in solution.roots
+            }
+            for name, roots in self._named_roots(problem).items():
+                value = self.in_unknowns(solution, sympy.prod([quantities[root] for root in sorted(roots, key=str)]))
                 if solution is self.direct:
                     value = value.subs(self.inputs_in_unknowns)
-                values[name] = sympy.factor_terms(sense * value)
+                values[name] = sympy.factor_terms(value)
         return values
 
     @cached_property
@@ -213,6 +272,10 @@ class ClosedFormFormulas:
     @cached_property
     def _sizes(self) -> Sizes:
         return Sizes(self.inverse, frozenset(own for own in self.printed_inputs if not isinstance(own, tuple)))
+
+
+def _is_sum_of_squares(formula: sympy.Expr) -> bool:
+    return all(part.is_Pow and part.exp == 2 for part in sympy.Add.make_args(formula))
 
 
 def _factors(formula: sympy.Expr) -> set[sympy.Expr]:

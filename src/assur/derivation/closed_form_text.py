@@ -254,7 +254,12 @@ class ClosedFormText:
         text = self.printer.doprint(own.formula)
         if own.symbol in roots:
             name, sense = self.formulas.signs[problem, own.symbol]
-            text = f"{'-' if sense < 0 else ''}{sign_text(name)} * {text}"
+            product = self.formulas.sign_product(problem, own.symbol)
+            if product.divisors:  # whose signs the root has too
+                whole = sympy.prod(product.divisors)
+                text = self.printer.doprint(whole * sympy.sqrt(roots[own.symbol].radicand / whole**2))
+            names = "".join(f"{sign_text(other)} * " for other in (name, *product.names))
+            text = f"{'-' if sense < 0 else ''}{names}{text}"
         return f"    {own.symbol.name} = {text}"
 
     def _given(self, problem: Problem) -> list[str]:
@@ -420,6 +425,5 @@ class ClosedFormText:
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
             kind = 'zero="degenerate"'
             if value in roots:
-                sign, _ = self.formulas.signs[problem, roots[value].symbol]
-                kind = f'signs=("{sign}",)'
+                kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"
             yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, {kind})'

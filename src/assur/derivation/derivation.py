@@ -25,7 +25,7 @@ class Derivation:
     def closed_form(self) -> str:
         """The file `closed_form.py`. Errors: NotDerivedError."""
         signs = matched_signs(self.direct, self.inverse)
-        formulas = ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors)
+        formulas = ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors, signs.products)
         plain = ClosedFormText(formulas)
         lost = rank_losses(self.record, plain.text())
         return replace(plain, meanings=ClosedFormMeanings(formulas), constraint_singular=lost).text()

@@ -13,6 +13,8 @@ from typing import Literal
 
 import sympy
 
+from assur.derivation.definitions import Definition
+from assur.derivation.dimension_relations import dimension_relations
 from assur.derivation.linear import Form, form_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
@@ -61,7 +63,7 @@ class LoopEquations:
         lengths: index in the joint values -> symbol of a length that is sought.
         strokes: such a length along a direction that turns -> the circle by which it turns. It is a coefficient.
         point: the platform's point as linear forms.
-        directions: link -> vectors of it, as functions of the unknowns.
+        relations: dimensions that follow from others, without which no loop closes.
     """
 
     forms: tuple[Form, ...]
@@ -69,6 +71,7 @@ class LoopEquations:
     lengths: Mapping[int, sympy.Symbol]
     point: tuple[Form, Form, Form]
     strokes: Mapping[sympy.Symbol, UnknownDirection] = field(default_factory=dict)
+    relations: tuple[Definition, ...] = ()
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -106,10 +109,13 @@ class _Loops:
         ]
         fixed = [length for length in self.lengths.values() if length not in self.strokes]
         unknowns = [*fixed, *(unknown for direction in directions for unknown in direction.unknowns)]
-        forms = (form_of(row, unknowns, self.symbols.witness) for row in rows)
+        forms = [form_of(row, unknowns, self.symbols.witness) for row in rows]
+        relations = dimension_relations(self.symbols, forms, unknowns)
+        if relations:
+            forms = [form_of(row, unknowns, self.symbols.witness) for row in rows]
         x, y, z = (form_of(part, unknowns, self.symbols.witness) for part in platform)
-        forms = (form for form in forms if form)
-        return LoopEquations(tuple(forms), tuple(directions), dict(self.lengths), (x, y, z), dict(self.strokes))
+        own = tuple(form for form in forms if form)
+        return LoopEquations(own, tuple(directions), dict(self.lengths), (x, y, z), dict(self.strokes), relations)
 
     def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
         numbered: dict[int, list[str]] = {}

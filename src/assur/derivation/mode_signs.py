@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,7 +13,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.closed_form_formulas import ClosedFormFormulas, SignProduct
 from assur.derivation.closed_form_text import ClosedFormText
 from assur.derivation.kernel_text import sign_attribute
 from assur.derivation.not_derived import NotDerivedError
@@ -41,53 +41,210 @@ class MatchedSigns:
     Attributes:
         roots: problem and root -> the sign of a mode, and whether the root has it or its opposite.
         factors: sign of a mode that no root has -> a product of factors and of quantities that has it.
+        products: problem and root -> what the sign is multiplied with.
     """
 
     roots: RootSigns
     factors: Mapping[str, sympy.Expr]
+    products: Mapping[tuple[Problem, sympy.Symbol], SignProduct]
 
 
 def matched_signs(direct: AnalyticSolution, inverse: AnalyticSolution) -> MatchedSigns:
     """The signs of both problems. Errors: NotDerivedError."""
-    own: RootSigns = {}
-    solutions: tuple[tuple[Problem, AnalyticSolution], ...] = (("inverse", inverse), ("direct", direct))
-    for problem, solution in solutions:
-        own |= {(problem, root.symbol): (f"{problem}{k}", 1) for k, root in enumerate(solution.roots)}
-    formulas = ClosedFormFormulas(direct, inverse, own)
-    names = names_of(ClosedFormText(formulas).text(), Path("closed_form.py"))
-    form: ClosedForm = names["CLOSED_FORM"]
-    joints, signs, _ = _branches(inverse, form, [name for name, _ in own.values()], NEAR)
-    matched: RootSigns = {}
-    products: dict[str, sympy.Expr] = {}
-    record = inverse.symbols.record
-    for problem, solution in solutions:
-        named = signs_at(record, problem, joints)
-        left = dict(enumerate(sign_meanings(record, problem)))
+    return _Matching(direct, inverse).signs()
+
+
+@dataclass(frozen=True, eq=False)
+class _Branches:
+    """Branches at poses about home.
+
+    Attributes:
+        joints: (N, n) joint values.
+        signs: name in the form that is tried -> signs (N,) of the quantity.
+        factors: name of a factor -> its signs (N,).
+    """
+
+    joints: NDArray[np.float64]
+    signs: Mapping[str, NDArray[np.float64]]
+    factors: Mapping[str, NDArray[np.float64]]
+
+
+class _Matching:
+    """A form whose signs are called by numbers, and at its branches those by which modes are named."""
+
+    def __init__(self, direct: AnalyticSolution, inverse: AnalyticSolution) -> None:
+        self.direct, self.inverse, self.record = direct, inverse, inverse.symbols.record
+        self.solutions: dict[Problem, AnalyticSolution] = {"inverse": inverse, "direct": direct}
+        self.own: RootSigns = {
+            (problem, root.symbol): (f"{problem}{k}", 1)
+            for problem, solution in self.solutions.items()
+            for k, root in enumerate(solution.roots)
+        }
+        plain = ClosedFormFormulas(direct, inverse, self.own)
+        self.divisors = {f"divisor{k}": own for k, own in enumerate(plain.direct_divisors)}
+        values = {name: plain.of_direct(own) for name, own in self.divisors.items()}
+        self.formulas = ClosedFormFormulas(direct, inverse, self.own, values)
+        names = names_of(ClosedFormText(self.formulas).text(), Path("closed_form.py"))
+        self.form: ClosedForm = names["CLOSED_FORM"]
+
+    def signs(self) -> MatchedSigns:
+        """Those of both problems."""
+        matched: RootSigns = {}
+        products: dict[tuple[Problem, sympy.Symbol], SignProduct] = {}
+        factors: dict[str, sympy.Expr] = {}
+        for problem, solution in self.solutions.items():
+            left = self._roots(problem, solution, matched, products)
+            if left and problem == "direct" and solution.eliminant is not None:
+                factors = self._of_factors(left)
+                left = {k: name for k, name in left.items() if name not in factors}
+                left = {k: name for k, name in left.items() if name in sign_names(self.record, problem)}
+            if left:
+                raise NotDerivedError(f"{', '.join(left.values())} name modes, and no root has their sign")
+        return MatchedSigns(matched, factors, products)
+
+    def _roots(
+        self,
+        problem: Problem,
+        solution: AnalyticSolution,
+        matched: RootSigns,
+        products: dict[tuple[Problem, sympy.Symbol], SignProduct],
+    ) -> dict[int, str]:
+        """The signs of roots, each a product of names and of divisors; the names that are left."""
+        meanings = [*sign_meanings(self.record, problem)]
+        divisors = self.divisors if problem == "direct" else {}
+        tables = [self._table(problem, solution, divisors, near) for near in (NEAR, FAR)]
+        shares: dict[sympy.Symbol, tuple[set[int], set[str], int]] = {}
         for root in solution.roots:
-            values = signs[own[problem, root.symbol][0]]
-            match = [(k, s) for k in left for s in (1, -1) if np.all(named[:, k] == s * values)]
-            if not match:
+            share = self._share(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
+            if share is None:
                 raise NotDerivedError(
-                    f"the sign of {root.quantity} is none by which the modes of {record.name} are named"
+                    f"the sign of {root.quantity} is none by which the modes of {self.record.name} are named"
                 )
-            k, sense = match[0]
-            matched[problem, root.symbol] = left.pop(k), sense
-        if left and problem == "direct" and direct.eliminant is not None:
-            left = {k: name for k, name in left.items() if name in sign_names(record, problem)}
-            joints, signs, factors = _branches(inverse, form, [name for name, _ in own.values()], FAR)
-            named = signs_at(record, problem, joints)
-            quantities = {name: (value, factors[name]) for name, kind, value in formulas.factors if kind != "other"}
-            quantities |= {
-                name: (formulas.sign_values[name], signs[name]) for (of, _), (name, _) in own.items() if of == "inverse"
-            }
-            for k in list(left):
-                product = _product(named[:, k], {name: values for name, (_, values) in quantities.items()})
-                if product is not None:
-                    chosen, sense = product
-                    products[left.pop(k)] = sense * sympy.prod([quantities[name][0] for name in chosen])
-        if left:
-            raise NotDerivedError(f"{', '.join(left.values())} name modes, and no root has their sign")
-    return MatchedSigns(matched, products)
+            shares[root.symbol] = share
+        chosen = assigned([names for names, _, _ in shares.values()])
+        if chosen is None:
+            raise NotDerivedError(f"the names of the modes of {self.record.name} do not tell all branches apart")
+        for k, (symbol, (names, own, sense)) in zip(chosen, shares.items(), strict=True):
+            matched[problem, symbol] = meanings[k], sense
+            if names != {k} or own:
+                others = tuple(meanings[other] for other in sorted(names - {k}))
+                whole = tuple(divisors[name] for name in sorted(own))
+                products[problem, symbol] = SignProduct(others, whole)
+        return {k: name for k, name in enumerate(meanings) if k not in chosen}
+
+    def _table(
+        self, problem: Problem, solution: AnalyticSolution, divisors: Mapping[str, sympy.Expr], near: float
+    ) -> tuple[NDArray[np.bool_], dict[str, NDArray[np.bool_]]]:
+        """Which signs are minus: of names (N, s), and by name of roots and divisors (N,)."""
+        branches = self._branches(near)
+        named = signs_at(self.record, problem, branches.joints)
+        sound = np.all(named != 0, axis=1)
+        own = [self.own[problem, root.symbol][0] for root in solution.roots]
+        return named[sound] < 0, {name: branches.signs[name][sound] < 0 for name in (*own, *divisors)}
+
+    def _share(
+        self,
+        tables: Sequence[tuple[NDArray[np.bool_], Mapping[str, NDArray[np.bool_]]]],
+        root: str,
+        count: int,
+        divisors: Sequence[str],
+    ) -> tuple[set[int], set[str], int] | None:
+        """The names and divisors whose product has the sign of a root, and the sense: near home, if so also far."""
+        for known in (tables, tables[:1]):
+            named = np.concatenate([own for own, _ in known])
+            values = [np.concatenate([signs[name] for _, signs in known]) for name in (root, *divisors)]
+            plus = np.ones((len(named), 1), dtype=bool)
+            columns = np.concatenate([plus, named, np.stack(values[1:], axis=1) if divisors else plus[:, :0]], axis=1)
+            chosen = summands(columns, values[0])
+            if chosen is not None:
+                names = {k - 1 for k in chosen if 0 < k <= count}
+                return names, {divisors[k - 1 - count] for k in chosen if k > count}, -1 if 0 in chosen else 1
+        return None
+
+    def _of_factors(self, left: Mapping[int, str]) -> dict[str, sympy.Expr]:
+        """Names of modes of a polynomial that products of factors, and of quantities of roots, are the signs of."""
+        branches = self._branches(FAR)
+        named = signs_at(self.record, "direct", branches.joints)
+        quantities = {
+            name: (value, branches.factors[name]) for name, kind, value in self.formulas.factors if kind != "other"
+        }
+        quantities |= {
+            name: (self.formulas.sign_values[name], branches.signs[name])
+            for (of, _), (name, _) in self.own.items()
+            if of == "inverse"
+        }
+        products: dict[str, sympy.Expr] = {}
+        for k, name in left.items():
+            product = _product(named[:, k], {own: values for own, (_, values) in quantities.items()})
+            if product is not None:
+                chosen, sense = product
+                products[name] = sense * sympy.prod([quantities[own][0] for own in chosen])
+        return products
+
+    def _branches(self, near: float) -> _Branches:
+        """Branches at poses about home."""
+        record, form = self.record, self.form
+        home = pose.pose_of(record, home_values(record))
+        length = characteristic_length(record)
+        scales = np.array([length if name in LENGTHS else 1.0 for name in record.platform.pose])
+        random = np.random.default_rng(0)
+        poses = home + near * scales * random.uniform(-1.0, 1.0, (PLACES, len(home)))
+        roots = [self.own["inverse", root.symbol][0] for root in self.inverse.roots]
+        choices = np.array([*itertools.product((1.0, -1.0), repeat=len(roots))]).reshape(-1, len(roots))
+        many, rows = np.repeat(poses, len(choices), axis=0), np.tile(choices, (len(poses), 1))
+        ns, p = Floats(), kernel_dimensions(record)
+        signs = SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
+        branch = form.inverse(ns, p, border.pose_components(record, many), signs)
+        real = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
+        joints = border.joint_values(record, form.joints(ns, p, branch.core))
+        values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
+
+        def sign(value: Any) -> NDArray[np.float64]:
+            return np.asarray(np.sign(np.broadcast_to(value, len(many)))[real])
+
+        named = [*(name for name, _ in self.own.values()), *self.divisors]
+        return _Branches(
+            values[real],
+            {name: sign(getattr(branch.core, sign_attribute(name))) for name in named},
+            {name: sign(value) for name, value in form.factors(ns, p, branch.core).items()},
+        )
+
+
+def summands(columns: NDArray[np.bool_], total: NDArray[np.bool_]) -> list[int] | None:
+    """Columns (N, k) whose sum modulo 2 is the total (N,), the first ones if there is a choice; None: there are none.
+
+    >>> summands(np.array([[True, False, True], [True, True, False]]), np.array([False, True]))
+    [0, 2]
+    """
+    basis: list[tuple[NDArray[np.bool_], set[int]]] = []
+
+    def left(own: NDArray[np.bool_], made: set[int]) -> tuple[NDArray[np.bool_], set[int]]:
+        for column, of in basis:
+            if own[np.argmax(column)]:
+                own, made = own ^ column, made ^ of
+        return own, made
+
+    for k in range(columns.shape[1]):
+        own, made = left(columns[:, k], {k})
+        if np.any(own):
+            basis.append((own, made))
+    rest, chosen = left(total, set())
+    return None if np.any(rest) else sorted(chosen)
+
+
+def assigned(choices: Sequence[set[int]]) -> list[int] | None:
+    """One of each set, all different; None where there are none.
+
+    >>> assigned([{0, 1}, {0}])
+    [1, 0]
+    """
+    if not choices:
+        return []
+    for own in sorted(choices[0]):
+        rest = assigned([other - {own} for other in choices[1:]])
+        if rest is not None:
+            return [own, *rest]
+    return None
 
 
 def _product(signs: NDArray[np.int8], factors: Mapping[str, NDArray[np.float64]]) -> tuple[tuple[str, ...], int] | None:
@@ -101,36 +258,6 @@ def _product(signs: NDArray[np.int8], factors: Mapping[str, NDArray[np.float64]]
                 if np.all(signs == sense * values):
                     return chosen, sense
     return None
-
-
-def _branches(
-    inverse: AnalyticSolution, form: ClosedForm, names: list[str], near: float
-) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, NDArray[np.float64]]]:
-    """Joint values (N, n) of branches at poses about home, and the signs of their quantities and factors (N,)."""
-    record = inverse.symbols.record
-    home = pose.pose_of(record, home_values(record))
-    length = characteristic_length(record)
-    scales = np.array([length if name in LENGTHS else 1.0 for name in record.platform.pose])
-    random = np.random.default_rng(0)
-    poses = home + near * scales * random.uniform(-1.0, 1.0, (PLACES, len(home)))
-    choices = np.array([*itertools.product((1.0, -1.0), repeat=len(inverse.roots))]).reshape(-1, len(inverse.roots))
-    many = np.repeat(poses, len(choices), axis=0)
-    rows = np.tile(choices, (len(poses), 1))
-    roots = [name for name in names if name.startswith("inverse")]
-    ns, p = Floats(), kernel_dimensions(record)
-    branch = form.inverse(
-        ns, p, border.pose_components(record, many), SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
-    )
-    real = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
-    joints = border.joint_values(record, form.joints(ns, p, branch.core))
-    values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
-    of_signs = {name: np.broadcast_to(getattr(branch.core, sign_attribute(name)), len(many)) for name in names}
-    signs = {name: np.sign(value)[real] for name, value in of_signs.items()}
-    factors = {
-        name: np.sign(np.broadcast_to(value, len(many)))[real]
-        for name, value in form.factors(ns, p, branch.core).items()
-    }
-    return values[real], signs, factors
 
 
 def _radicands(form: ClosedForm, margins: Mapping[str, Any]) -> list[Any]:

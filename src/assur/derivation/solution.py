@@ -103,6 +103,8 @@ class AnalyticSolution:
         witness = witness or ModularWitness(seed)
         for cosine, sine in self.symbols.circles:
             witness.on_circle(cosine, sine)
+        for relation in self.loops.relations:
+            witness.define(relation.symbol, relation.formula)
         turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=False)}
         for part in sets:
             before = len(part.eliminant.known) if part.eliminant else 0

@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import combinations
 
 import sympy
 
-from assur.derivation.linear import Form, divided, form_of, replaced, solved, sparse
+from assur.derivation.linear import Form, combined, divided, form_of, replaced, solved, sparse, tidy
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.model.pose import ANGLES
@@ -68,9 +70,43 @@ class _Velocities:
         if len(rows) != size or len(self.inputs) != size:
             raise NotDerivedError(f"{len(rows)} velocity equations for {size} rates of the pose")
         rows = [{key: self._on_circles(part) for key, part in row.items()} for row in rows]
-        jp = sympy.Matrix([[row.get(rate, 0) for rate in self.pose] for row in rows])
-        jq = sympy.Matrix([[-row.get(rate, 0) for rate in self.inputs] for row in rows])
-        return VelocityEquations(jp, jq, factors_of(jp), factors_of(jq))
+        looked_at = set[sympy.Expr]()
+        while True:
+            jp = sympy.Matrix([[row.get(rate, 0) for rate in self.pose] for row in rows])
+            jq = sympy.Matrix([[-row.get(rate, 0) for rate in self.inputs] for row in rows])
+            parallel, serial = factors_of(jp), factors_of(jq)
+            shared = {base for base, _ in parallel} & {base for base, _ in serial if base.free_symbols} - looked_at
+            better = self._regular(rows, shared) if shared and not looked_at else None
+            if better is None:
+                return VelocityEquations(jp, jq, parallel, serial)
+            looked_at, rows = shared, better
+
+    def _regular(self, rows: list[Form], shared: set[sympy.Expr]) -> list[Form] | None:
+        """Equations two of which were multiples of each other where a shared factor vanishes; None: there are none.
+
+        Of a and b, whose sum l a + m b has the factor, that sum without it and l b - m a take the place: these say the
+        same but where l and m vanish together.
+        """
+        for i, j in combinations(range(len(rows)), 2):
+            for key in rows[i].keys() & rows[j].keys():
+                first, second = primitive([rows[j][key], -rows[i][key]])
+                if {first, second} & shared:
+                    continue
+                total = self._sum(rows[i], first, rows[j], second)
+                if any(self.witness.is_zero(part) for part in total.values()) or not total:
+                    continue
+                plain = divided(total)
+                own = next(iter(total))
+                factor, _ = sympy.fraction(tidy(total[own] / plain[own]))
+                if not {part for part, _ in sympy.factor_list(factor)[1]} & shared:
+                    continue
+                across = divided(self._sum(rows[j], first, rows[i], -second))
+                return [plain if k == i else across if k == j else row for k, row in enumerate(rows)]
+        return None
+
+    def _sum(self, first: Form, share: sympy.Expr, second: Form, other: sympy.Expr) -> Form:
+        """Multiples of two equations added up."""
+        return combined({key: tidy(share * part) for key, part in first.items()}, other, second, self.witness)
 
     def _on_circles(self, entry: sympy.Expr) -> sympy.Expr:
         """A number where an entry is a multiple of the sum of the squares of a cosine and its sine; else the entry."""

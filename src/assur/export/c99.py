@@ -194,6 +194,9 @@ class _Source:
         after: list[str] = []
         for kind in FILLED:
             for row, (name, entries) in enumerate(kernel.outputs.get(kind, {}).items()):
+                if name in kernel.numbers.get(kind, {}):
+                    after.append(f"{self._goals(kind, row, 1)[0]} = {number_text(kernel.numbers[kind][name])};")
+                    continue
                 for k, (place, goal) in enumerate(zip(entries, self._goals(kind, row, len(entries)), strict=True)):
                     entries_of[f"{kind} {name} {k}"], targets[f"{kind} {name} {k}"] = place, [goal]
                 after += self._finish(kind, row, len(entries))

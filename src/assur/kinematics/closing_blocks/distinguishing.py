@@ -90,7 +90,11 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     answers = [_Solutions.of(ordered, problem, target, known) for target in _targets(ordered, known)]
     combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
-    order = _separating(columns, [answer.solution for answer in answers])
+    moving = [any(isinstance(known[k], BlockSign) and known[k].moving for k in chosen) for chosen in combinations]
+    last = [
+        problem == "direct" and own for own in moving
+    ]  # a flat parallelogram is no singularity of the direct problem
+    order = _separating(columns, [answer.solution for answer in answers], last)
     own = [_in_file_order(factor, record) for factor in known]
     return tuple(ModeSign(tuple(own[k] for k in combinations[place])) for place in sorted(order))
 
@@ -247,8 +251,13 @@ def _joined_where_alike(differing: NDArray[np.bool_], count: int) -> list[list[i
     return answer
 
 
-def _separating(columns: Sequence[Sequence[SignArray]], solutions: Sequence[IntArray]) -> Iterator[int]:
-    """The columns that tell most pairs of solutions apart that those before them did not, until none tells more."""
+def _separating(
+    columns: Sequence[Sequence[SignArray]], solutions: Sequence[IntArray], last: Sequence[bool]
+) -> Iterator[int]:
+    """The columns that tell most pairs of solutions apart that those before them did not, until none tells more.
+
+    Those of `last` come where no other tells more.
+    """
     firsts = [np.unique(solution, return_index=True)[1] for solution in solutions]
     pairs = [np.triu_indices(len(rows), 1) for rows in firsts]
     apart = [
@@ -256,10 +265,12 @@ def _separating(columns: Sequence[Sequence[SignArray]], solutions: Sequence[IntA
         for column in columns
     ]
     left = np.ones(sum(len(a) for a, _ in pairs), dtype=bool)
-    while np.any(left) and apart:
-        gains = [int(np.sum(own & left)) for own in apart]
-        best = int(np.argmax(gains))
-        if not gains[best]:
-            return
-        left &= ~apart[best]
-        yield best
+    for later in (False, True):
+        own = [k for k, late in enumerate(last) if late == later]
+        while np.any(left) and own:
+            gains = [int(np.sum(apart[k] & left)) for k in own]
+            best = own[int(np.argmax(gains))]
+            if not np.any(apart[best] & left):
+                break
+            left &= ~apart[best]
+            yield best

@@ -60,6 +60,7 @@ class BlockSign:
         rates: (k, d) basis of the rates that count: all, those in motions of the mechanism, or those in none of them.
         basis: (6 L, r) of the space that its screws span there at such rates.
         size: of its largest determinant among assemblies by chance, negative where home would read minus.
+        moving: whether it is a loop that moves by itself, as a parallelogram.
     """
 
     block: ClosingBlock
@@ -67,6 +68,7 @@ class BlockSign:
     rates: FloatArray
     basis: FloatArray
     size: float
+    moving: bool = False
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -187,7 +189,7 @@ def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
         across = np.linalg.svd(own)[0][:, own.shape[1] :]
         sign = _sign(block, screws, across)
         if sign is not None:
-            yield sign
+            yield replace(sign, moving=True)
 
 
 def _independent(blocks: Sequence[ClosingBlock], number: int, screws: ScrewColumns) -> bool:
@@ -280,12 +282,21 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
 
 
 def _motion_rates(block: ClosingBlock, screws: ScrewColumns) -> FloatArray:
-    """Basis (k, d) of the rates of a block's columns in all motions of the mechanism, rods not spinning."""
+    """Basis (k, d) of the rates of a block's columns in all motions of the mechanism, single rods not spinning.
+
+    Rods of a parallelogram spin together: without that its motions may span less than its rods' turns, by an accident
+    of the others, and a border of two spins of three would vanish where the third is across it.
+    """
     motions = screws.motions[:, list(block.columns)]
-    if block.spins:
-        spins = np.stack([spin_rates(spin, screws)[:, list(block.columns)] for spin in block.spins], axis=-1)
-        motions = motions - spins @ (np.linalg.pinv(spins) @ motions)
-    return _span(motions)
+    if not block.spins:
+        return _span(motions)
+    spins = np.stack([spin_rates(spin, screws)[:, list(block.columns)] for spin in block.spins], axis=-1)
+    motions = motions - spins @ (np.linalg.pinv(spins) @ motions)
+    size = float(np.max(np.linalg.norm(motions, axis=1), initial=0.0))
+    groups = [{*group.joints} for group in screws.record.generalised.values()]
+    pairs = [[k for k, spin in enumerate(block.spins) if {spin.first, spin.second} <= group] for group in groups]
+    together = [size * np.sum(spins[:, :, pair], axis=2, keepdims=True) for pair in pairs if len(pair) > 1]
+    return _span(np.concatenate([motions, *together], axis=2))
 
 
 def _steadiest(block: ClosingBlock, number: int, screws: ScrewColumns) -> str:

@@ -34,6 +34,9 @@ LARGEST = 16
 SAME = 1e-7
 """Of logarithms: only a guess, which residues then decide."""
 GUESSES = 6
+MOST_TOGETHER, MANY = 4, 16
+"""So many entries together are tried, of so many; of more of these all pairs. All at once tell nothing where some are
+products of others, as signs that name modes are of those of roots."""
 SEED = 7
 """Of guesses. The prime is nobody's to know: a formula may be written that is zero modulo one."""
 
@@ -146,10 +149,11 @@ class Identities:
             return
         size = max(float(np.max(np.abs(wanted))), 1e-3)
         gram, right = columns @ columns.T, columns @ wanted
-        for count in (1, 2, len(others)):
+        few = MOST_TOGETHER if len(others) <= MANY else 2
+        for count in (*range(1, few + 1), len(others)):
             chosen = (
                 np.array(list(itertools.combinations(range(len(others)), count)), dtype=int).reshape(-1, count)
-                if count < 3
+                if count <= few
                 else np.arange(len(others))[None]
             )
             solved = _solved(gram[chosen[:, :, None], chosen[:, None, :]], right[chosen])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import traceback
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
@@ -63,6 +63,7 @@ class Kernel:
         margins: those that the question judges.
         outputs: "joint", "pose", "input", "margin", "factor", "sign", "jp", "jq", "quantity", "coefficient" or "finite"
             -> name -> its entries of the tape; an angle has two.
+        numbers: the same -> name -> a plain number, which has no entry.
     """
 
     record: MechanismRecord
@@ -71,6 +72,7 @@ class Kernel:
     given: tuple[tuple[str, bool], ...]
     margins: tuple[Margin, ...]
     outputs: Mapping[str, Mapping[str, tuple[int, ...]]]
+    numbers: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @cached_property
     def needs(self) -> tuple[frozenset[int], ...]:
@@ -188,6 +190,7 @@ class _Writer:
         self.given: list[tuple[str, bool]] = []
         self.values: dict[str, dict[str, list[Any]]] = {}
         self.margins: tuple[Margin, ...] = ()
+        self.numbers: dict[str, dict[str, float]] = {}
 
     def kernel(self) -> Kernel:
         """Everything recorded, with a place for each output."""
@@ -206,7 +209,7 @@ class _Writer:
             }
             for kind, named in self.values.items()
         }
-        return Kernel(self.record, self.question, tape, tuple(self.given), self.margins, outputs)
+        return Kernel(self.record, self.question, tape, tuple(self.given), self.margins, outputs, self.numbers)
 
     def _inverse(self) -> None:
         pose = tuple(self._number(name, is_angle(name)) for name in self.record.platform.pose)
@@ -275,6 +278,8 @@ class _Writer:
         if kind in PLACED:
             parts = [part if isinstance(part, Recorded) else self.ns.number(part) for part in parts]
         self.values.setdefault(kind, {})[name] = [part for part in parts if isinstance(part, Recorded)]
+        if kind not in PLACED and len(parts) == 1 and not isinstance(parts[0], Recorded):
+            self.numbers.setdefault(kind, {})[name] = float(parts[0])
 
     def _number(self, name: str, angle: bool = False) -> Any:
         self.given.append((name, angle))
