@@ -12,14 +12,16 @@ import sympy
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
 from assur.derivation.linear import tidy
+from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.derivation.velocities import VelocityEquations, velocity_equations
+from assur.joints.steps import about
 from assur.kinematics.modes import Problem
 from assur.model.pose import ANGLES, LENGTHS
-from assur.numerics.vectors import dot
+from assur.numerics.vectors import dot, product, transposed
 
 
 @dataclass(frozen=True)
@@ -128,19 +130,30 @@ class ClosedFormFormulas:
         for index, symbol in lengths.items():
             if index in self.direct.symbols.locked:
                 yield symbol, self.direct.symbols.locked[index]
-        for driven, pair in zip(record.inputs, self.input_pairs, strict=True):
-            if driven.coordinate.kind == "angle":  # the angle of a link that an input turns, from that of the input
-                cosine, sine = circle_of(driven.name)
-                for part, value in zip(pair, (cosine, sine), strict=True):
-                    (symbol,) = part.free_symbols
-                    if symbol not in known:
-                        yield symbol, value * part.coeff(symbol)
+        for direction in self.inverse.loops.directions:
+            if direction.kind == "circle" and not known & {*direction.unknowns}:
+                yield from zip(direction.unknowns, self._turn_in_direct(direction), strict=True)
         named = dict(zip(LENGTHS, self.direct.point, strict=True))
         for name in record.platform.pose:
             if name in named:
                 yield _real(name), named[name]
             else:
                 yield from zip(circle_of(name), self._turned_by(name), strict=True)
+
+    def _turn_in_direct(self, direction: UnknownDirection) -> tuple[sympy.Expr, sympy.Expr]:
+        """Cosine and sine of a circle of the inverse problem, in what the direct one knows. Errors: NotDerivedError."""
+        link = direction.links[0]
+        own, other = self.inverse.placed.links[link], self.direct.placed.links[link]
+        if own.axis is None or other.rod is not None:
+            raise NotDerivedError(f"the angle of {link} in the direct problem")
+        rotation = other.constant
+        if other.axis is not None:
+            circle = next(item for item in self.direct.loops.directions if link in item.links)
+            rotation = product(about(other.axis, *circle.unknowns), rotation)
+        turned = product(rotation, transposed(own.constant))
+        cosine = (sum(turned[k][k] for k in range(3)) - 1) / sympy.Integer(2)
+        across = (turned[2][1] - turned[1][2], turned[0][2] - turned[2][0], turned[1][0] - turned[0][1])
+        return sympy.simplify(cosine), sympy.simplify(dot(own.axis, across) / sympy.Integer(2))
 
     def _turned_by(self, name: str) -> tuple[sympy.Expr, sympy.Expr]:
         """Cosine and sine of an angle of the pose."""
@@ -178,7 +191,9 @@ class ClosedFormFormulas:
 
     @cached_property
     def direct_divisors(self) -> list[sympy.Expr]:
-        """What the direct problem divides by and what is no sum of squares: its sign may be either."""
+        """What the roots of the direct problem are divided by and what is no sum of squares: its sign may be either."""
+        if self.direct.eliminant is not None:
+            return []
         squares = {own.symbol for own in self.direct.definitions if _is_sum_of_squares(own.formula)}
         divisors = [own for name, own in self.margins("direct") if own not in {*squares}]
         radicands = {root.radicand for root in self.direct.roots}
@@ -240,7 +255,10 @@ class ClosedFormFormulas:
         values: dict[sympy.Symbol, sympy.Expr] = {}
         for printed, own in pairs:
             values |= dict(zip(printed, own, strict=True)) if isinstance(printed, tuple) else {printed: own}
-        return values
+        for name in self.direct.symbols.record.platform.pose:
+            if name in ANGLES:  # of the platform's own angle
+                values |= dict(zip(self._turned_by(name), circle_of(name), strict=True))
+        return {symbol: own for symbol, own in values.items() if symbol not in self.unknowns}
 
     @cached_property
     def factors(self) -> list[tuple[str, str, sympy.Expr]]:
@@ -268,6 +286,14 @@ class ClosedFormFormulas:
     def scale(self, value: sympy.Expr) -> str:
         """A formula of dimensions: the size of a quantity, its terms added up."""
         return self._sizes.scale(value)
+
+    def margin_scale(self, problem: Problem, value: sympy.Expr) -> str:
+        """The same of a margin, by what its terms are at home."""
+        solution = self.solution(problem)
+        formulas = {own.symbol: own.formula for own in solution.definitions}
+        terms = sympy.Add.make_args(formulas.get(value, value))
+        at_home = sum(abs(solution.symbols.witness.at_home(term)) for term in terms)
+        return self._sizes.scale(self.in_unknowns(solution, value), at_home)
 
     @cached_property
     def _sizes(self) -> Sizes:

@@ -121,7 +121,9 @@ class ClosedFormText:
 
     @property
     def _motion(self) -> CoincidenceMotion | None:
-        return self.meanings.self_motion if self.meanings is not None else None
+        if self.meanings is None or self.formulas.products:  # on the curve fewer signs are left, and products have more
+            return None
+        return self.meanings.self_motion
 
     @property
     def _motion_angle(self) -> str:
@@ -421,7 +423,7 @@ class ClosedFormText:
         roots = {root.radicand: root for root in solution.roots}
         for name, value in self.formulas.margins(problem):
             whole = self.formulas.in_unknowns(solution, value)
-            unit, scale = self.formulas.unit(whole), self.formulas.scale(whole)
+            unit, scale = self.formulas.unit(whole), self.formulas.margin_scale(problem, value)
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
             kind = 'zero="degenerate"'
             if value in roots:

@@ -29,6 +29,9 @@ from assur.model.kernels.reading import names_of
 from assur.model.pose import LENGTHS
 from assur.numerics.number_types import Floats
 
+Share = tuple[set[int], set[str], int]
+"""Names by their numbers and divisors, whose product has a sign, and the sense."""
+_Table = tuple[NDArray[np.bool_], dict[str, NDArray[np.bool_]]]
 RootSigns = dict[tuple[Problem, sympy.Symbol], tuple[str, int]]
 PLACES, NEAR, FAR = 24, 0.05, 1.0
 """Poses about home, in characteristic lengths and rad, at which signs are compared; far ones where they must change."""
@@ -113,18 +116,19 @@ class _Matching:
         meanings = [*sign_meanings(self.record, problem)]
         divisors = self.divisors if problem == "direct" else {}
         tables = [self._table(problem, solution, divisors, near) for near in (NEAR, FAR)]
-        shares: dict[sympy.Symbol, tuple[set[int], set[str], int]] = {}
+        shares: dict[sympy.Symbol, dict[int, Share]] = {}
         for root in solution.roots:
-            share = self._share(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
-            if share is None:
+            share = self._shares(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
+            if not share:
                 raise NotDerivedError(
                     f"the sign of {root.quantity} is none by which the modes of {self.record.name} are named"
                 )
             shares[root.symbol] = share
-        chosen = assigned([names for names, _, _ in shares.values()])
+        chosen = assigned([{*share} for share in shares.values()])
         if chosen is None:
             raise NotDerivedError(f"the names of the modes of {self.record.name} do not tell all branches apart")
-        for k, (symbol, (names, own, sense)) in zip(chosen, shares.items(), strict=True):
+        for k, (symbol, share) in zip(chosen, shares.items(), strict=True):
+            names, own, sense = share[k]
             matched[problem, symbol] = meanings[k], sense
             if names != {k} or own:
                 others = tuple(meanings[other] for other in sorted(names - {k}))
@@ -134,7 +138,7 @@ class _Matching:
 
     def _table(
         self, problem: Problem, solution: AnalyticSolution, divisors: Mapping[str, sympy.Expr], near: float
-    ) -> tuple[NDArray[np.bool_], dict[str, NDArray[np.bool_]]]:
+    ) -> _Table:
         """Which signs are minus: of names (N, s), and by name of roots and divisors (N,)."""
         branches = self._branches(near)
         named = signs_at(self.record, problem, branches.joints)
@@ -142,24 +146,32 @@ class _Matching:
         own = [self.own[problem, root.symbol][0] for root in solution.roots]
         return named[sound] < 0, {name: branches.signs[name][sound] < 0 for name in (*own, *divisors)}
 
-    def _share(
-        self,
-        tables: Sequence[tuple[NDArray[np.bool_], Mapping[str, NDArray[np.bool_]]]],
-        root: str,
-        count: int,
-        divisors: Sequence[str],
-    ) -> tuple[set[int], set[str], int] | None:
-        """The names and divisors whose product has the sign of a root, and the sense: near home, if so also far."""
-        for known in (tables, tables[:1]):
-            named = np.concatenate([own for own, _ in known])
-            values = [np.concatenate([signs[name] for _, signs in known]) for name in (root, *divisors)]
-            plus = np.ones((len(named), 1), dtype=bool)
-            columns = np.concatenate([plus, named, np.stack(values[1:], axis=1) if divisors else plus[:, :0]], axis=1)
-            chosen = summands(columns, values[0])
+    def _shares(self, tables: Sequence[_Table], root: str, count: int, divisors: Sequence[str]) -> dict[int, Share]:
+        """Name -> names, itself among them, and divisors whose product has the sign of a root, and the sense.
+
+        One name alone before products; what holds far from home too before what holds near it.
+        """
+        wide, near = (np.concatenate([table[0] for table in own]) for own in (tables, tables[:1]))
+        signs = {
+            name: [np.concatenate([table[1][name] for table in own]) for own in (tables, tables[:1])]
+            for name in (root, *divisors)
+        }
+        for k, named in enumerate((wide, near)):
+            alone = {}
+            for own in range(count):
+                unlike = named[:, own] ^ signs[root][k]
+                if np.all(unlike) or not np.any(unlike):
+                    alone[own] = ({own}, set[str](), -1 if unlike[0] else 1)
+            if alone:
+                return alone
+        for k, named in enumerate((wide, near)):
+            columns = [np.ones(len(named), dtype=bool), *named.T, *(signs[name][k] for name in divisors)]
+            chosen = summands(np.stack(columns, axis=1), signs[root][k])
             if chosen is not None:
-                names = {k - 1 for k in chosen if 0 < k <= count}
-                return names, {divisors[k - 1 - count] for k in chosen if k > count}, -1 if 0 in chosen else 1
-        return None
+                names = {own - 1 for own in chosen if 0 < own <= count}
+                share = names, {divisors[own - 1 - count] for own in chosen if own > count}, -1 if 0 in chosen else 1
+                return dict.fromkeys(names, share)
+        return {}
 
     def _of_factors(self, left: Mapping[int, str]) -> dict[str, sympy.Expr]:
         """Names of modes of a polynomial that products of factors, and of quantities of roots, are the signs of."""
@@ -190,12 +202,13 @@ class _Matching:
         random = np.random.default_rng(0)
         poses = home + near * scales * random.uniform(-1.0, 1.0, (PLACES, len(home)))
         roots = [self.own["inverse", root.symbol][0] for root in self.inverse.roots]
-        choices = np.array([*itertools.product((1.0, -1.0), repeat=len(roots))]).reshape(-1, len(roots))
+        choices = np.array([*itertools.product((1.0, -1.0), repeat=len(roots))]).reshape(2 ** len(roots), len(roots))
         many, rows = np.repeat(poses, len(choices), axis=0), np.tile(choices, (len(poses), 1))
         ns, p = Floats(), kernel_dimensions(record)
         signs = SimpleNamespace(**dict(zip(roots, rows.T, strict=True)))
         branch = form.inverse(ns, p, border.pose_components(record, many), signs)
-        real = np.all([np.broadcast_to(value, len(many)) > 0.0 for value in _radicands(form, branch.margins)], axis=0)
+        radicands = (np.broadcast_to(value, len(many)) for value in _radicands(form, branch.margins))
+        real = np.logical_and.reduce([np.ones(len(many), dtype=bool), *(value > 0.0 for value in radicands)])
         joints = border.joint_values(record, form.joints(ns, p, branch.core))
         values = np.stack([np.broadcast_to(value, len(many)) for value in joints], axis=-1)
 

@@ -10,6 +10,9 @@ import sympy
 from assur.derivation.solution import AnalyticSolution
 from assur.model.pose import LENGTHS
 
+LEAST = 1e-3
+"""Share of the sum of all magnitudes that a quantity counts as where it is less at home, which may be singular."""
+
 
 @dataclass(frozen=True, eq=False)
 class Sizes:
@@ -52,11 +55,20 @@ class Sizes:
         share = complex(value.evalf(subs=larger)) / complex(value.evalf(subs=numbers))
         return int(sympy.log(abs(share), 2).round())
 
-    def scale(self, value: sympy.Expr) -> str:
-        """The sum of the magnitudes of its terms over a power of the largest length."""
+    def scale(self, value: sympy.Expr, at_home: float | None = None) -> str:
+        """The sum of the magnitudes of its terms over a power of the largest length.
+
+        Args:
+            value: the quantity, in the unknowns of the inverse problem and what is given.
+            at_home: what its terms add up to at home, if that is known. Of products of sums the magnitudes multiply to
+                far more than any configuration has.
+        """
         name, length = self.reference
         unit = self.unit(value)
-        size = self._size(value) / length**unit
+        size = self._size(value)
+        if at_home is not None:
+            size = min(size, max(at_home, LEAST * size))
+        size /= length**unit
         factors = [name] * max(unit, 0)
         number = f"{size:.2g}"
         plain = number if "e" not in number else f"{size:.6f}"

@@ -20,6 +20,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
+from assur.model.mechanism import Joint
 from assur.model.pose import ANGLES
 from assur.numerics.vectors import Vector, apply, scaled, subtract
 
@@ -52,6 +53,7 @@ class _Velocities:
         self.pose = [sympy.Symbol(f"d_{name}", real=True) for name in self.record.platform.pose]
         self.inputs = [sympy.Symbol(f"d_{driven.name}", real=True) for driven in self.record.inputs]
         self.passive: list[sympy.Symbol] = []
+        self.carriers: dict[UnknownDirection, sympy.Symbol] = {}
         self.rates = dict(self._rates())
 
     def equations(self) -> VelocityEquations:
@@ -60,7 +62,7 @@ class _Velocities:
         forms = [self._rate(form) for form in loops]
         values, rows = solved(forms, self.passive, self.witness)
         for direction in self.solution.loops.directions:
-            if direction not in driven:
+            if direction not in driven and direction not in self.carriers:
                 across = {self.rates[unknown]: unknown for unknown in direction.unknowns}
                 rows.append(replaced(across, values, self.witness))
         _, rows = solved(rows, self.passive, self.witness)
@@ -156,27 +158,47 @@ class _Velocities:
                 joint = self.record.joints[driven.coordinate.joint]
                 direction, sense = self._circle(joint.child), self._sense(joint.name) * int(driven.sign)
                 cosine, sine = direction.unknowns
-                yield from ((cosine, -sense * sine * rate), (sine, sense * cosine * rate))
+                whole = sense * rate + self._carried(joint)
+                yield from ((cosine, -sine * whole), (sine, cosine * whole))
         driven_items = [*self._driven()]
         indices = {driven.coordinate.index for driven in self.record.inputs}
         free = [symbol for index, symbol in lengths.items() if index not in indices]
         free += [
             unknown
             for direction in self.solution.loops.directions
-            if direction not in driven_items
+            if direction not in driven_items and direction not in self.carriers
             for unknown in direction.unknowns
         ]
+        for direction, rate in self.carriers.items():
+            cosine, sine = direction.unknowns
+            yield from ((cosine, -sine * rate), (sine, cosine * rate))
         for unknown in free:
             rate = sympy.Symbol(f"d_{unknown.name}", real=True)
             self.passive.append(rate)
             yield unknown, rate
 
+    def _carried(self, joint: Joint) -> sympy.Expr:
+        """The rate of what carries a driven joint, about the axis of its child. Errors: NotDerivedError."""
+        carrier, child = (self.solution.placed.links[link] for link in (joint.parent, joint.child))
+        if carrier.axis is None or child.axis is None:
+            return sympy.Integer(0)
+        direction = self._circle(joint.parent)
+        if direction in self._driven():
+            driven = next(own for own in self.record.inputs if own.coordinate.joint == joint.name)
+            raise NotDerivedError(f"{driven.name} turns about what another input turns")
+        rate = sympy.Symbol(f"d_angle_{direction.name}", real=True)
+        same = all(map(self.witness.is_zero, subtract(carrier.axis, child.axis)))
+        if rate not in self.passive:
+            self.passive.append(rate)
+            self.carriers[direction] = rate
+        return rate if same else -rate
+
     def _sense(self, name: str) -> int:
         """Whether a driven joint turns its child about its circle's axis, or against it."""
         joint, links = self.record.joints[name], self.solution.placed.links
         parent, child = links[joint.parent], links[joint.child]
-        if parent.axis is not None or child.axis is None:
-            raise NotDerivedError(f"{name} is driven, and its parent turns")
+        if parent.hinge is not None or child.axis is None:
+            raise NotDerivedError(f"{name} is driven, and what carries it turns about two axes")
         axis: Vector = apply(parent.constant, self.symbols.geometry.joints[name].axes[0])
         same = all(map(self.witness.is_zero, subtract(axis, child.axis)))
         if not same and not all(map(self.witness.is_zero, subtract(scaled(axis, -1), child.axis))):

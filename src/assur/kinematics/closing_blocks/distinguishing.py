@@ -90,10 +90,9 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     answers = [_Solutions.of(ordered, problem, target, known) for target in _targets(ordered, known)]
     combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
-    moving = [any(isinstance(known[k], BlockSign) and known[k].moving for k in chosen) for chosen in combinations]
-    last = [
-        problem == "direct" and own for own in moving
-    ]  # a flat parallelogram is no singularity of the direct problem
+    moving = {k for k, factor in enumerate(known) if isinstance(factor, BlockSign) and factor.moving}
+    # a flat parallelogram is no singularity of the direct problem of those that stay such
+    last = [problem == "direct" and bool(moving & {*chosen}) for chosen in combinations]
     order = _separating(columns, [answer.solution for answer in answers], last)
     own = [_in_file_order(factor, record) for factor in known]
     return tuple(ModeSign(tuple(own[k] for k in combinations[place])) for place in sorted(order))
