@@ -20,6 +20,7 @@ KINDS = {
     "closed_forms": "closed forms that have passed",
     "readings": "mechanisms' files as they were read",
     "modes": "names of modes",
+    "derivations": "closed forms that were derived",
     "consent": "Python of mechanisms that may run",
 }
 """Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -66,7 +66,7 @@ def check(
         found = found or _of_closed_form(record, deep)
         work.result = count(len(found), "fault")
     facts = None if found else _summary(record)
-    return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
+    return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism, record, found))
 
 
 def _of_closed_form(record: MechanismRecord, deep: bool) -> tuple[Problem, ...]:
@@ -114,9 +114,20 @@ def _summary(record: MechanismRecord) -> SoundFacts:
     )
 
 
-def _next(mechanism: str) -> str:
+def _next(mechanism: str, record: MechanismRecord, faults: Iterable[Problem]) -> tuple[str, ...]:
     """What to do with a sound file of one's own; nothing where it is one of the catalogue."""
-    return f"next: {called()} page {mechanism}" if mechanism.endswith(".toml") else ""
+    if not mechanism.endswith(".toml"):
+        return ()
+    return *_derivable(mechanism, record, faults), f"next: {called()} page {mechanism}"
+
+
+def _derivable(mechanism: str, record: MechanismRecord, faults: Iterable[Problem]) -> Iterator[str]:
+    """How a closed form may be had, where a glance at the joint graph does not say that it may not."""
+    if record.closed_form is None and not record.closed_form_not_run and not [*faults]:
+        from assur.derivation.kept import may_be_derived
+
+        if may_be_derived(record):
+            yield f"for formulas: {called()} derive {mechanism}"
 
 
 def _outcome(
@@ -124,7 +135,7 @@ def _outcome(
     problems: Iterable[Problem],
     notes: Iterable[Problem],
     facts: SoundFacts | None,
-    then: str = "",
+    then: Iterable[str] = (),
 ) -> Outcome:
     from assur.results.answers.check import CheckAnswer
 
@@ -133,7 +144,7 @@ def _outcome(
     return Outcome(answer, lambda: _shown(answer, then), exit_codes.BAD_FILE if faults else exit_codes.FINE)
 
 
-def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
+def _shown(data: CheckAnswer, then: Iterable[str]) -> Iterable[RenderableType]:
     if (facts := data.facts) is None:
         yield heading(f"{data.mechanism}: {count(len(data.faults), 'fault')}")
         yield from (Verbatim(problem) for problem in data.faults)
@@ -161,5 +172,4 @@ def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
             f"compared with the joint graph at places only: {', '.join(facts.unproved)}"
         )
     yield from (Verbatim(f"note: {note}") for note in data.notes)
-    if then:
-        yield Verbatim(then)
+    yield from map(Verbatim, then)

@@ -62,5 +62,7 @@ def derive(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import derive_answer
+    from assur.cli.progress import progress
 
-    return derive_answer.outcome(record, problem, output, latex, c, prove)
+    with progress(f"deriving {record.name}", shared):
+        return derive_answer.outcome(record, problem, output, latex, c, prove)

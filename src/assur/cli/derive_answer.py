@@ -14,10 +14,10 @@ from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
-from assur.derivation.derivation import derive
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.identities import NoIdentityError
+from assur.derivation.kept import derived_closed_form
 from assur.derivation.linear import value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.phrases import direction
@@ -82,7 +82,7 @@ def _not_written(record: Mechanism, path: Path | None, source: Path | None) -> s
     from assur.model.kernels.reading import names_of
 
     try:
-        text = derive(record).closed_form()
+        text = derived_closed_form(record)
     except NotDerivedError as error:
         return str(error)
     if path is not None:

@@ -63,7 +63,10 @@ def new(
     ] = False,
     force: Annotated[bool, Parameter(help="Replace the file if it is there.")] = False,
     with_closed_form: Annotated[bool, Parameter(help="With --from: copy its closed form, a Python file, too.")] = False,
-    shared: Plain = PLAIN,  # noqa: ARG001  # read by main
+    derive: Annotated[
+        bool, Parameter(negative=(), help="Derive its closed form too, and write it beside, as closed_form.py.")
+    ] = False,
+    shared: Plain = PLAIN,  # read by main
 ) -> Outcome:
     r"""Write a mechanism's file to begin with: a copy, or a draft of chains.
 
@@ -95,6 +98,31 @@ def new(
             --chain "P[y] P(4R)[y] P(4R)[x]"
     """
     path = _target(file, force=force)
+    if derive and with_closed_form:
+        raise UsageError("--derive and --with-closed-form both write closed_form.py", hint="leave one of them out")
+    if derive:
+        _refuse_others(path)
+    made = _made(
+        path, shorthand, arrangement, from_, chain, limb, count, actuate, mode, with_closed_form, coordinates, force
+    )
+    return _with_derived(path, made, shared) if derive else made
+
+
+def _made(
+    path: Path,
+    shorthand: str,
+    arrangement: str,
+    from_: str,
+    chain: Sequence[str],
+    limb: str,
+    count: str,
+    actuate: str,
+    mode: str,
+    with_closed_form: bool,
+    coordinates: bool,
+    force: bool,
+) -> Outcome:
+    """The file in one of the ways."""
     if from_ and not chain and not limb and not shorthand:
         _refuse_options(path, {"--count": count, "--actuate": actuate, "--mode": mode})
         return _from_catalogue(from_, path, force=force, with_closed_form=with_closed_form, coordinates=coordinates)
@@ -242,11 +270,35 @@ def _refuse_others(path: Path) -> None:
         )
 
 
-def _outcome(path: Path, files: Sequence[str], said: Sequence[str]) -> Outcome:
+def _with_derived(path: Path, made: Outcome, shared: Plain) -> Outcome:
+    """The same with the closed form that was derived, or with the reason why there is none."""
+    from assur.cli import exit_codes
+    from assur.cli.progress import progress
+    from assur.derivation.kept import derived_closed_form
+    from assur.derivation.not_derived import NotDerivedError
+    from assur.model.registry import load_record
+    from assur.results.answers.files import WrittenMechanism
+    from assur.results.files import write_whole
+
+    draft = made.data
+    if not isinstance(draft, WrittenMechanism):
+        return made
+    try:
+        with progress(f"deriving {path.stem}", shared):
+            text = derived_closed_form(load_record(path))
+    except NotDerivedError as error:
+        notes = (*draft.notes, f"no closed form was derived: {error}")
+        return _outcome(path, draft.files, notes, exit_codes.UNDECIDED)
+    beside = str(write_whole(path.parent / CLOSED_FORM, text))
+    notes = (*draft.notes, "its closed form was derived, and agrees with its joint graph")
+    return _outcome(path, (*draft.files, beside), notes)
+
+
+def _outcome(path: Path, files: Sequence[str], said: Sequence[str], code: int = 0) -> Outcome:
     from assur.results.answers.files import WrittenMechanism
 
     data = WrittenMechanism(path.stem, tuple(files), tuple(said))
-    return Outcome(data, lambda: _shown(path, data))
+    return Outcome(data, lambda: _shown(path, data), exit_code=code)
 
 
 def _shown(path: Path, data: WrittenMechanism) -> Iterable[RenderableType]:

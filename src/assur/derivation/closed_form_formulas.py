@@ -291,8 +291,10 @@ class ClosedFormFormulas:
         """The same of a margin, by what its terms are at home."""
         solution = self.solution(problem)
         formulas = {own.symbol: own.formula for own in solution.definitions}
-        terms = sympy.Add.make_args(formulas.get(value, value))
-        at_home = sum(abs(solution.symbols.witness.at_home(term)) for term in terms)
+        formula, home = formulas.get(value, value), solution.symbols.witness.home
+        known = formula.free_symbols <= home.keys()  # what follows of a polynomial's root is not
+        terms = sympy.Add.make_args(formula) if known else ()
+        at_home = sum(abs(solution.symbols.witness.at_home(term)) for term in terms) if known else None
         return self._sizes.scale(self.in_unknowns(solution, value), at_home)
 
     @cached_property

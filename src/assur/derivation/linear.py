@@ -190,7 +190,9 @@ def _size(form: Form) -> tuple[int, int]:
 def _cost(form: Form, key: sympy.Symbol, witness: ModularWitness) -> tuple[int, int, int]:
     """Numbers are divided by first, then what never vanishes, then what does not at home; short forms first."""
     pivot = form[key]
-    sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if abs(witness.at_home(pivot)) > VANISHED else 3
+    known = pivot.free_symbols <= witness.home.keys()
+    there = known and abs(witness.at_home(pivot)) > VANISHED
+    sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if there else 3
     return sure, int(sympy.count_ops(pivot)), len(form)
 
 

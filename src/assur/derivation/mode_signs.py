@@ -98,9 +98,9 @@ class _Matching:
         for problem, solution in self.solutions.items():
             left = self._roots(problem, solution, matched, products)
             if left and problem == "direct" and solution.eliminant is not None:
+                left = {k: name for k, name in left.items() if name in sign_names(self.record, problem)}
                 factors = self._of_factors(left)
                 left = {k: name for k, name in left.items() if name not in factors}
-                left = {k: name for k, name in left.items() if name in sign_names(self.record, problem)}
             if left:
                 raise NotDerivedError(f"{', '.join(left.values())} name modes, and no root has their sign")
         return MatchedSigns(matched, factors, products)

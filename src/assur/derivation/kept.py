@@ -1,0 +1,107 @@
+"""Closed forms that were derived, kept in the user's cache: the file's text, or why there is none.
+
+The name of an entry is a digest of the mechanism's file, of the dimensions, of assur's version and of the code of this
+folder. What is kept has passed: a derived form agrees with its joint graph before anyone sees it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+
+from assur.cache import keep, own_content
+from assur.derivation.derivation import derive
+from assur.derivation.loop_equations import loop_equations
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.orientations import orientations
+from assur.derivation.symbols import GivenSymbols
+from assur.derivation.witness import ModularWitness
+from assur.kinematics.contract.check import problems
+from assur.kinematics.contract.extent import AT_LOAD
+from assur.kinematics.modes import Problem
+from assur.model.kernels.reading import names_of
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import CLOSED_FORM
+from assur.version import VERSION
+
+KIND = "derivations"
+LARGEST = 1_000_000
+"""Bytes of an entry; a larger one is none of ours."""
+
+
+def derived_closed_form(record: MechanismRecord) -> str:
+    """The file `closed_form.py` of a mechanism, derived once for each file; it agrees with the joint graph.
+
+    Errors:
+        NotDerivedError: what resists, or what the joint graph says against it.
+
+    >>> from assur.model.registry import load_record
+    >>> derived_closed_form(load_record("fivebar")).splitlines()[0]
+    '\"\"\"Closed form of fivebar, derived from its joint graph: link4 and link5.'
+    """
+    name = _name(record)
+    digest, _, body = (own_content(KIND, name, LARGEST) or b"").partition(b"\n")
+    if body and digest.decode("ascii", "replace") == hashlib.sha256(body).hexdigest():
+        with suppress(ValueError, TypeError, KeyError, RecursionError):
+            entry = json.loads(body)
+            if entry["why"]:
+                raise NotDerivedError(str(entry["why"]))
+            return str(entry["text"])
+    text = why = ""
+    try:
+        text = _that_agrees(record)
+    except NotDerivedError as error:
+        why = str(error)
+    body = json.dumps({"text": text, "why": why}).encode()
+    with suppress(OSError):
+        keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
+    if why:
+        raise NotDerivedError(why)
+    return text
+
+
+def may_be_derived(record: MechanismRecord) -> bool:
+    """Whether every link's orientation is of a kind that can be solved for: a glance, without solving.
+
+    >>> from assur.model.registry import load_record
+    >>> may_be_derived(load_record("fivebar")), may_be_derived(load_record("gough_stewart"))
+    (True, False)
+    """
+    asked: tuple[Problem, ...] = ("direct", "inverse")
+    for problem in asked:
+        symbols = GivenSymbols(record, problem, ModularWitness())
+        try:
+            loop_equations(symbols, orientations(symbols))
+        except NotDerivedError:
+            return False
+    return True
+
+
+def _that_agrees(record: MechanismRecord) -> str:
+    derivation = derive(record)
+    if not (derivation.direct.closes() and derivation.inverse.closes()):
+        raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
+    text = derivation.closed_form()
+    plain = record.without_closed_form
+    form = names_of(text, Path(CLOSED_FORM))["CLOSED_FORM"]
+    against, _ = problems(plain.with_closed_form(form, text), AT_LOAD)
+    if against:
+        raise NotDerivedError(f"the joint graph does not agree with what was derived: {against[0].given}")
+    return text
+
+
+def _name(record: MechanismRecord) -> str:
+    text = record.description.text if record.description else ""
+    own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
+    parts = (VERSION, _code(), json.dumps(own), record.name, text)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"
+
+
+@lru_cache(maxsize=1)
+def _code() -> str:
+    """A digest of the code that derives."""
+    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
