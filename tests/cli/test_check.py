@@ -29,6 +29,7 @@ def test_a_sound_file(check) -> None:
         "fourbar: sound",
         "4 links, 4 joints; 1 freedom",
         "no closed form: it is solved on its joint graph",
+        "next: assur derive m.toml, for a closed form",
         "next: assur page m.toml",
     ]
 

@@ -127,7 +127,7 @@ def _derivable(mechanism: str, record: MechanismRecord, faults: Iterable[Problem
         from assur.derivation.kept import may_be_derived
 
         if may_be_derived(record):
-            yield f"for formulas: {called()} derive {mechanism}"
+            yield f"next: {called()} derive {mechanism}, for a closed form"
 
 
 def _outcome(

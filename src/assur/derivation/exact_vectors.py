@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy
 
@@ -23,9 +24,8 @@ class ExactVectors:
 
     def unit(self, vector: Vector) -> Vector:
         """A vector over its length."""
-        size = sympy.sqrt(sympy.expand(dot(vector, vector)))
-        x, y, z = (sympy.simplify(part / size) for part in vector)
-        return x, y, z
+        x, y, z = map(sympy.sympify, vector)
+        return _unit((x, y, z))
 
     def along(self, axis: Vector, other: Vector) -> bool:
         """Whether two vectors lie on one line."""
@@ -58,3 +58,17 @@ class ExactVectors:
         """The same of a rotation."""
         a, b, c = (self.tidied(row) for row in matrix)
         return a, b, c
+
+
+@lru_cache(maxsize=512)
+def _unit(vector: Vector) -> Vector:
+    """A vector over its length, worked out once: to simplify is what takes the time."""
+    square = sympy.expand(dot(vector, vector))
+    for sine in square.atoms(sympy.sin):
+        square = sympy.expand(square.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
+    size = sympy.sqrt(square)
+    if size.is_Pow and size.base.is_Add and size.free_symbols:  # nothing that a component shares
+        x, y, z = (part / size for part in vector)
+    else:
+        x, y, z = (part if part == 0 else sympy.simplify(part / size) for part in vector)
+    return x, y, z
