@@ -66,7 +66,7 @@ def works(record: MechanismRecord, values: dict[str, np.ndarray]) -> dict[str, C
     for problem, rows in values.items():
         if problem == "direct" and record.name in POLYNOMIALS:
             few = rows[: max(1, len(rows) // 40)]
-            own["direct, roots"] = lambda few=few: direct(record, few, method="closed form").pose
+            own["direct, roots"] = lambda few=few: direct(record, few, method="closed form").poses
             continue
         for engine in ("numpy", "compiled"):
             own[f"{problem}, {engine}"] = lambda p=problem, r=rows, e=engine: list(

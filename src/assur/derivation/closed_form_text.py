@@ -19,6 +19,7 @@ from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_tex
 from assur.derivation.symbols import circle_of
 from assur.kinematics.modes import Problem, written_quantities
 from assur.kinematics.naming import sign_meanings
+from assur.model.kernels.declarations import LONGEST_TEXT
 
 CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""
 
@@ -392,6 +393,7 @@ class ClosedFormText:
         for name, kind, value in self.formulas.factors:
             unit, scale = self.formulas.unit(value), self.formulas.scale(value)
             meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
+            meaning = meaning if len(meaning) <= LONGEST_TEXT else f"{name} vanishes"
             lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{meaning}", unit={unit}),')
         lines.append("    ),")
         if self.constraint_singular:
@@ -425,6 +427,7 @@ class ClosedFormText:
             whole = self.formulas.in_unknowns(solution, value)
             unit, scale = self.formulas.unit(whole), self.formulas.margin_scale(problem, value)
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
+            meaning = meaning if len(meaning) <= LONGEST_TEXT else name
             kind = 'zero="degenerate"'
             if value in roots:
                 kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"

@@ -67,8 +67,5 @@ def _unit(vector: Vector) -> Vector:
     for sine in square.atoms(sympy.sin):
         square = sympy.expand(square.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
     size = sympy.sqrt(square)
-    if size.is_Pow and size.base.is_Add and size.free_symbols:  # nothing that a component shares
-        x, y, z = (part / size for part in vector)
-    else:
-        x, y, z = (part if part == 0 else sympy.simplify(part / size) for part in vector)
+    x, y, z = (part if part == 0 else sympy.simplify(part / size) for part in vector)
     return x, y, z

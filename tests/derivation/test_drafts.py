@@ -1,0 +1,105 @@
+"""Drafts as a stranger makes them: special dimensions, other orders, names of modes that no root has alone."""
+
+import shutil
+
+import numpy as np
+import pytest
+import sympy
+
+from assur.derivation import kept
+from assur.derivation.kept import derived_closed_form, may_be_derived
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.solution import analytic_solution
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.contract.check import problems
+from assur.kinematics.contract.extent import IN_FULL
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import direct, inverse
+from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.synthesis.drafting.repeating import repeated
+from assur.synthesis.shorthand.arrangements import arranged
+from assur.topology.notation import parse_chains
+
+HSOC = "{P[z] R[x] R[x] | P[z] R[x] R[x]} R[y] R[y]"
+DRAFTS = {
+    "biglide": parse_chains(["P[x] R[z]", "P[x] R[z] R[z]"]),
+    "upright rails": parse_chains([HSOC, "P[z] P(4R)[y] P(4R)[x]"]),  # parallelograms in another order
+    "Delta": arranged("Delta", "").chains,
+    "rails across": repeated("P[x] P(4S)[y]", 3),
+    "ppr": repeated("P[x] P[y] R[z]", 3),
+    "rrc": parse_chains(["R[x] R[x] C[x]", "R[y] R[y] C[y]", "R[z] R[z] C[z]"]),
+}
+
+
+def draft(name, folder):
+    path = folder / "own.toml"
+    path.write_text(drafted(DRAFTS[name], path).text, encoding="utf-8")
+    return load_record(path)
+
+
+@pytest.fixture(scope="module", params=[*DRAFTS])
+def both(request, tmp_path_factory):
+    """A draft, and the same with its derived form."""
+    plain = draft(request.param, tmp_path_factory.mktemp("plain"))
+    folder = tmp_path_factory.mktemp("derived")
+    shutil.copy(plain.file, folder / "own.toml")
+    (folder / "closed_form.py").write_text(derived_closed_form(plain))
+    return plain, load_record(folder / "own.toml")
+
+
+@pytest.mark.deep
+def test_a_draft_agrees_with_its_joint_graph(both):
+    assert problems(both[1], IN_FULL)[0] == ()
+
+
+@pytest.mark.deep
+def test_answers_of_a_draft_are_those_of_its_joint_graph_by_the_same_names(both):
+    plain = both[0]
+    length, home = characteristic_length(plain), pose_of(plain, home_values(plain))
+    for share in np.random.default_rng(5).uniform(-0.03, 0.03, (2, len(home))):
+        pose = home + length * share * [0.0 if name == "phi" else 1.0 for name in plain.platform.pose]
+        answers = [{own.mode: own.inputs for own in inverse(record, pose)} for record in both]
+        if len(answers[1]) > 1:  # the only one has a letter on the joint graph
+            assert answers[0].keys() <= answers[1].keys()
+        for mode, inputs in answers[0].items():
+            assert np.allclose(inputs, answers[1].get(mode, answers[1].get("")), rtol=0, atol=1e-7 * length)
+        inputs = next(iter(answers[1].values()))
+        back = [{own.mode: own.pose for own in direct(record, inputs)} for record in both]
+        assert back[0].keys() <= back[1].keys()
+        for mode, own in back[0].items():
+            assert np.allclose(own, back[1][mode], rtol=0, atol=1e-6 * length)
+
+
+def test_dimensions_without_which_no_loop_closes_are_told_as_relations(tmp_path):
+    path = tmp_path / "own.toml"
+    chains = parse_chains(["R[x] R[x] R[x]", "R[x] R[x]"])
+    path.write_text(drafted(chains, path).text, encoding="utf-8")
+    record = load_record(path)
+    solution = analytic_solution(record, "direct")
+    (relation,) = solution.loops.relations
+    numbers = {sympy.Symbol(name, real=True, positive=own.sign == "positive" or None): own.inside
+               for name, own in record.parameters.items()}  # fmt: skip
+    assert abs(float((relation.symbol - relation.formula).subs(numbers))) < 1e-9
+    assert solution.closes()
+
+
+def test_what_was_derived_is_kept_and_so_is_why_nothing_was(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path))
+    calls = []
+
+    def refused(record):
+        calls.append(record.name)
+        raise NotDerivedError("it resists")
+
+    monkeypatch.setattr(kept, "derive", refused)
+    for _ in range(2):
+        with pytest.raises(NotDerivedError, match="it resists"):
+            derived_closed_form(load_record("fivebar"))
+    assert calls == ["fivebar"]
+
+
+def test_a_glance_tells_what_may_be_derived():
+    assert may_be_derived(load_record("tripteron"))
+    assert not may_be_derived(load_record("three_upu"))
