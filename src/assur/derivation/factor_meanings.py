@@ -167,8 +167,8 @@ class FactorMeanings:
         if first.axis is not None and second.axis is not None and self.lines.exact.along(first.axis, second.axis):
             yield triple(first.axis, p, q), phrase(f"{text} are parallel", *names)
             yield dot(p, q), phrase(f"{text} are at right angles", *names)
-            apart, together = subtract(p, q), add(p, q)
-            for vector in (apart, together):
+            alike = self.solution.symbols.witness.is_zero(first.square - second.square)
+            for vector in (subtract(p, q), add(p, q)) if alike else ():
                 for part in self._alone(vector):
                     yield part, phrase(f"{text} are parallel", *names)
             return

@@ -228,16 +228,16 @@ def width(latex: str) -> int:
     r"""About how many letters wide a formula is.
 
     >>> width(r"l_{2}\cos\theta_{9}"), width(r"\frac{a + b}{2}")
-    (6, 3)
+    (7, 3)
     """
     while (fraction := _fraction(latex)) is not None:
         start, stop, above, below = fraction
         latex = latex[:start] + "x" * max(width(above), width(below)) + latex[stop:]
     latex = re.sub(r"\\mathrm\{(\w*)\}", r"\1", latex)
-    latex = re.sub(r"\\(?:sin|cos)", "abc", latex)
+    latex, functions = re.subn(r"\\(?:sin|cos)", "abc", latex)
     latex = re.sub(r"\\[A-Za-z]+", "x", latex)
     small = sum(len(_GROUP.sub("", part)) for part in re.findall(r"[_^]\{[^{}]*\}", latex))
-    return len(re.sub(r"[{}_^\\,\s]", "", latex)) - small // 2 + latex.count(BREAK)
+    return len(re.sub(r"[{}_^\\,\s]", "", latex)) - small // 3 + latex.count(BREAK) + functions // 2
 
 
 def wrapped(latex: str, before: int = 0) -> tuple[str, ...]:

@@ -23,14 +23,15 @@ ZERO = sympy.Integer(0)
 
 @dataclass(frozen=True)
 class LinkLine:
-    """Where a link points: a vector of unit length, by the unknowns of its direction.
+    """Where a link points, by the unknowns of its direction.
 
     Attributes:
         direction: the unknowns.
-        vector: from a joint of the link to another; of a link that turns what of it lies across the axis.
+        vector: from a joint of the link to another, of a rod over its length; of a link that turns what lies across
+            the axis.
         axis: about which it turns; none of a rod's.
         still: the vector where the angle is zero.
-        reach: how long the link is along it.
+        square: of how long the link is along it.
         joints: the two joints.
     """
 
@@ -38,7 +39,7 @@ class LinkLine:
     vector: Vector
     axis: Vector | None
     still: Vector
-    reach: sympy.Expr
+    square: sympy.Expr
     joints: tuple[str, str]
 
 
@@ -57,7 +58,13 @@ class LinkLines:
 
     def of(self, direction: UnknownDirection) -> LinkLine | None:
         """The line of a direction; None where no two joints of a link lie apart across its axis."""
-        return next(self.all(direction), None)
+        if direction not in self._lines:
+            self._lines[direction] = next(self.all(direction), None)
+        return self._lines[direction]
+
+    @cached_property
+    def _lines(self) -> dict[UnknownDirection, LinkLine | None]:
+        return {}
 
     def all(self, direction: UnknownDirection) -> Iterator[LinkLine]:
         """The lines from the first joint of a link to each other one."""
@@ -92,8 +99,9 @@ class LinkLines:
         names = first.name, other.name
         if own.rod is not None:
             x, y, z = direction.unknowns
-            reach = sympy.simplify(dot(own.line or (0, 0, 0), whole))
-            return LinkLine(direction, (x, y, z), None, own.line or (0, 0, 0), reach, names) if reach != 0 else None
+            reach = dot(own.line or (0, 0, 0), whole)
+            apart_along = not self.symbols.witness.is_zero(reach)
+            return LinkLine(direction, (x, y, z), None, own.line or (0, 0, 0), reach**2, names) if apart_along else None
         if own.axis is None:
             return None
         return next(self._turned(direction, own.axis, whole, names), None)
@@ -104,10 +112,9 @@ class LinkLines:
         """What of a vector lies across the axis about which it turns, if any does."""
         across = self.exact.tidied(subtract(whole, scaled(axis, dot(axis, whole))))
         if any(across):
-            still = self.exact.unit(across)
             cosine, sine = direction.unknowns[:2] if direction.kind == "circle" else self._angle(direction)
-            turned = add(scaled(still, cosine), scaled(self.exact.tidied(cross(axis, still)), sine))
-            yield LinkLine(direction, turned, axis, still, sympy.simplify(dot(still, across)), names)
+            turned = add(scaled(across, cosine), scaled(self.exact.tidied(cross(axis, across)), sine))
+            yield LinkLine(direction, turned, axis, across, dot(across, across), names)
 
     def _angle(self, direction: UnknownDirection) -> tuple[sympy.Symbol, sympy.Symbol]:
         """Cosine and sine of a direction for which the components of a vector are solved."""
@@ -127,7 +134,7 @@ class LinkLines:
         return NamedLink(next((link for link in direction.links if link in self.symbols.record.links), direction.name))
 
     def named(self, vector: Vector) -> NamedDirection | NamedJoint | None:
-        """A direction of dimensions alone: along an axis of the base, along that of a joint, or by components."""
+        """A direction: along an axis of the base, along that of a joint, or by components that are numbers; or none."""
         for k in range(3):
             base: list[int] = [0, 0, 0]
             base[k] = 1
@@ -137,7 +144,7 @@ class LinkLines:
             if self.exact.along(vector, axis):
                 return NamedJoint(name)
         parts = [sympy.sympify(part) for part in vector]
-        if {symbol for part in parts for symbol in part.free_symbols} - {*self.symbols.parameters.values()}:
+        if not all(part.is_number for part in parts):
             return None
         x, y, z = self.exact.upright(self.exact.unit((parts[0], parts[1], parts[2])))
         return NamedDirection((x, y, z))

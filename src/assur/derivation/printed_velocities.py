@@ -62,7 +62,7 @@ class _Velocities:
             first, second = (text.replace(BREAK, " ") for text in (left, right))
             if width(first) + width(second) + 3 < COLUMN - NUMBER:
                 yield WrittenFormula(first, (second,))
-            elif width(second) < COLUMN // 2:
+            elif width(second) < COLUMN // 2 - NUMBER // 2:
                 yield WrittenFormula(second, wrapped(left, width(second) + 2 + NUMBER))
             else:
                 behind = self._sum([-sign * entry for entry in other], self.inputs)

@@ -149,9 +149,7 @@ class _Meeting:
             meet = self._shift(" do not meet at {}") or " do not meet"
             return phrase(f"{text}{meet}", *names, *self._floating)
         first, second = (self.own[own] for own in self.part.directions)
-        alike = first is not None and second is not None and any(
-            self.witness.is_zero(first.reach - sense * second.reach) for sense in (1, -1)
-        )  # fmt: skip
+        alike = first is not None and second is not None and self.witness.is_zero(first.square - second.square)
         far = "too far apart" if alike else "too far apart or too near"
         centres, links = joined(self._centres), joined([self.lines.name(own) for own in self.part.directions])
         at = self._shift(" at {}")

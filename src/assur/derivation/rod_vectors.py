@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy
 
 from assur.derivation.elimination import SolvedSet
 from assur.numerics.vectors import Vector, add, cross, dot, scaled, subtract
+
+ZERO = sympy.Integer(0)
 
 
 @dataclass(frozen=True)
@@ -47,16 +50,17 @@ def rod_vectors(part: SolvedSet) -> RodVectors | None:
     if base.kind != "rod" or len(part.roots) != 1 or len(part.lines) < 2:
         return None
     formulas = {own.symbol: own.formula for own in part.definitions}
-    names = {formula: symbol for symbol, formula in formulas.items()}
-    named = [[names.get(sympy.factor_terms(form.get(key, 0)), form.get(key, 0)) for key in base.unknowns]
-             for form in part.lines]  # fmt: skip
-    shares = [-form.get(sympy.Integer(1), sympy.Integer(0)) for form in part.lines]
-    h, k = (names.get(sympy.factor_terms(share), share) for share in shares[:2])
-    n, m = ((row[0], row[1], row[2]) for row in named[:2])
-    x, y, z = (names.get(sympy.factor_terms(own), own) for own in cross(n, m))
+    rows = [
+        [_named(formulas, form.get(key, ZERO), letter) for key in base.unknowns]
+        for form, letter in zip(part.lines, "uv", strict=False)
+    ]
+    shares = [-form.get(sympy.Integer(1), ZERO) for form in part.lines]
+    h, k = (_named(formulas, share, letter) for share, letter in zip(shares, "hk", strict=False))
+    n, m = ((row[0], row[1], row[2]) for row in rows)
+    x, y, z = (_named(formulas, own, "w") for own in cross(n, m))
     w: Vector = (x, y, z)
-    square = names.get(sympy.factor_terms(dot(w, w)))
-    if square is None or not all(sympy.sympify(own).is_Symbol for own in w):
+    square = _named(formulas, dot(w, w), "N")
+    if not square.is_Symbol or not all(sympy.sympify(own).is_Symbol for own in w):
         return None
     root, radicand = part.roots[0].symbol, part.roots[0].radicand
     apart = subtract(scaled(m, h), scaled(n, k))
@@ -67,3 +71,10 @@ def rod_vectors(part: SolvedSet) -> RodVectors | None:
         if sympy.expand(formulas[unknown] * square - own) != 0:
             return None
     return RodVectors(base.unknowns, (n, m), (h, k), w, square, radicand, root)
+
+
+def _named(formulas: Mapping[sympy.Symbol, sympy.Expr], formula: sympy.Expr, letter: str) -> sympy.Expr:
+    """The symbol that stands for a formula, of several that with a letter; else the formula."""
+    own = sympy.factor_terms(formula)
+    symbols = [symbol for symbol, other in formulas.items() if other == own]
+    return min(symbols, key=lambda symbol: not symbol.name.startswith(letter), default=sympy.sympify(formula))

@@ -181,7 +181,10 @@ class WrittenSolution:
         if part.lines:
             left = listed([f"${self.printed.angle(own)}$" for own in others])
             yield f"These are solved for {left}. {self._quadrics(others)}, ${self.printed.angle(base)}$ satisfies"
-            yield tuple(self._named_equation(form, steps) for form in part.lines)
+            if vectors is None:
+                yield tuple(self._named_equation(form, steps) for form in part.lines)
+            else:
+                yield tuple(self._planes(vectors))
         if vectors is not None:
             yield "where"
             yield tuple(self._of_vectors(vectors, steps))
@@ -378,6 +381,11 @@ class WrittenSolution:
         named = {key: steps.names.get(sympy.factor_terms(own), own) for key, own in form.items() if key != ONE}
         known = -form.get(ONE, ZERO)
         return self._equation({**named, ONE: -steps.names.get(sympy.factor_terms(known), known)})
+
+    def _planes(self, vectors: RodVectors) -> Iterator[WrittenFormula]:
+        for normal, share in zip(vectors.normals, vectors.shares, strict=True):
+            left = rf"{self.printed.vector(normal)} \cdot {self.printed.vector(vectors.unknowns)}"
+            yield WrittenFormula(left, (self.writer.text(share),))
 
     def _of_vectors(self, vectors: RodVectors, steps: _Steps) -> Iterator[WrittenFormula]:
         skipped = {*vectors.across}
