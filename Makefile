@@ -55,6 +55,7 @@ bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs
 	$(BIN)/python bench/topology.py
 	$(BIN)/python bench/kinematics.py
 	$(BIN)/python bench/compiled.py
+	$(BIN)/python bench/exported.py
 	$(BIN)/python bench/seconds.py
 	if command -v chromium >/dev/null && $(BIN)/python -c 'import playwright' 2>/dev/null; then \
 	    $(BIN)/python bench/page.py; fi

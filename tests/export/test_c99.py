@@ -4,15 +4,18 @@ import ctypes
 import shutil
 import subprocess
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from assur.derivation.derivation import derive
 from assur.errors import UsageError
 from assur.export.c99 import c99_text, identifier
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
+from assur.model.kernels.reading import names_of
 from assur.model.registry import load_record
 
 GCC = ("gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic")
@@ -22,14 +25,28 @@ PLACES = 100_000
 pytestmark = pytest.mark.compiler
 
 
+DERIVED = " derived"
+"""Behind a name: its closed form is the derived one."""
+
+
+@lru_cache
+def record_of(name):
+    record = load_record(name.removesuffix(DERIVED))
+    if not name.endswith(DERIVED):
+        return record
+    text = derive(record).closed_form()
+    return record.with_closed_form(names_of(text, Path("closed_form.py"))["CLOSED_FORM"], text)
+
+
 @lru_cache
 def source(name):
-    return c99_text(load_record(name))
+    return c99_text(record_of(name))
 
 
 def compiled(name, folder, *words):
+    name = name.replace(" ", "_")
     path = folder / f"{name}.c"
-    path.write_text(source(name), encoding="ascii")
+    path.write_text(source(name.replace("_derived", DERIVED)), encoding="ascii")
     target = folder / f"{name}{'.so' if '-shared' in words else ''}"
     subprocess.run([*GCC, *words, str(path), "-o", str(target), "-lm"], check=True, capture_output=True)
     return target
@@ -39,7 +56,8 @@ class Library:
     """The functions of a file, over NumPy arrays."""
 
     def __init__(self, name, folder):
-        self.name, self.record = identifier(name), load_record(name)
+        self.record = record_of(name)
+        self.name = identifier(self.record.name)
         self.c = ctypes.CDLL(str(compiled(name, folder, "-shared", "-fPIC")))
         sizes = dict(line.split()[1:3] for line in source(name).splitlines() if line.startswith("#define"))
         upper = self.name.upper()
@@ -92,7 +110,11 @@ def test_it_compiles_without_a_warning_and_its_own_test_is_fine(name, tmp_path):
     assert subprocess.run([str(target)], check=True, capture_output=True, text=True).stdout == f"{name}: fine\n"
 
 
-@pytest.mark.parametrize("library", ROOTS, indirect=True)
+@pytest.mark.parametrize(
+    "library",
+    [*ROOTS, *(pytest.param(name + DERIVED, marks=pytest.mark.deep) for name in ("zeng2019", "linear_delta_4s"))],
+    indirect=True,
+)
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
 def test_branches_of_roots_are_python_s_on_many_inputs(library, problem):
     record = library.record
@@ -112,7 +134,9 @@ def test_branches_of_roots_are_python_s_on_many_inputs(library, problem):
     assert np.max(worst) < 1e-9 * scale
 
 
-@pytest.mark.parametrize("library", POLYNOMIALS, indirect=True)
+@pytest.mark.parametrize(
+    "library", [*POLYNOMIALS, pytest.param("planar_3rrr" + DERIVED, marks=pytest.mark.deep)], indirect=True
+)
 def test_roots_of_polynomials_are_python_s_where_none_are_double(library):
     record, number = library.record, 2_000
     given = drawn(record, "direct", number)
