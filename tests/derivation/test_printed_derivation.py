@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import tomllib
 from functools import lru_cache
 from pathlib import Path
 
@@ -11,11 +12,15 @@ import numpy as np
 import pytest
 from tests.helpers.latex_numbers import Reader
 
+from assur.audit.equations import evaluate
 from assur.derivation.derivation import derive
 from assur.derivation.document import document
 from assur.derivation.numeric_example import example_branches
 from assur.derived_topology import topology
+from assur.kinematics.border import inputs_of
+from assur.kinematics.home import home_values
 from assur.kinematics.position import direct, inverse
+from assur.model.formula import parse
 from assur.model.registry import load_record
 
 KATEX = Path(__file__).parent / "katex"
@@ -169,3 +174,29 @@ def test_the_page_on_the_seed_shows_formulas_of_its_document():
     text = text_of("zeng2019").replace(" &=", " =")
     assert len(shown) == 10
     assert [formula for formula in shown if formula not in text] == []
+
+
+def test_the_letters_of_the_page_on_the_seed_are_those_of_the_paper():
+    """Derived quantities at an assembly, beside the paper's by the folder's own definitions, on the joint graph."""
+    page = (Path(__file__).parents[2] / "docs" / "derivations" / "zeng2019_derived.md").read_text(encoding="utf-8")
+    said = re.findall(r"`(\w+) = ([^`]+)`", page.partition("## Beside the paper")[2])
+    assert len(said) == 9
+    record = load_record("zeng2019")
+    equations = tomllib.loads((record.file.parent / "reference" / "equations.toml").read_text(encoding="utf-8"))
+    letters = {name: parse(text) for name, text in equations["definitions"].items()}
+    own = printed("zeng2019").problems[0].written
+    given = {symbol: float(value) for symbol, value in own.solution.symbols.witness.home.items()}
+    senses = [own.printed.signs[root.symbol][1] for root in own.solution.roots]
+    branches = [branch for branch in example_branches(own.solution, given, senses) if branch.values]
+    solutions = {solution.mode: solution for solution in direct(record, inputs_of(record, home_values(record)))}
+    order = printed("zeng2019").problems[0].order
+    checked = 0
+    for branch in branches:
+        mode = "".join("+" if sign > 0 else "-" for _, sign in sorted(zip(order, branch.signs, strict=True)))
+        values = np.array([*solutions[mode].joints.values()])
+        derived = {symbol.name: value for symbol, value in branch.values.items()}
+        for name, text in said:
+            theirs = float(evaluate(record, parse(text), values, 0 * values, letters))
+            assert abs(derived[name] - theirs) < 1e-8 * max(1.0, abs(theirs)), (name, text)
+            checked += 1
+    assert checked == 9 * 4
