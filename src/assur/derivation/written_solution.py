@@ -119,7 +119,8 @@ class WrittenSolution:
     def _condition(self, condition: sympy.Expr) -> str:
         """What must not vanish: of a quotient what is above."""
         above, _ = sympy.fraction(sympy.together(condition))
-        return self.writer.text(self._short(above))
+        short = self._short(above)
+        return self.writer.text(-short if self._negative(short) else short)
 
     def _reasons(self) -> Iterator[str]:
         for reason in self.solution.placed.reasons:

@@ -7,7 +7,9 @@ from assur.results.kinds import Facts, Formulas
 
 def test_both_problems_have_their_reasons_and_their_sets():
     (section,) = analytic_solutions(load_record("zeng2019"))
-    direct, inverse = section.results
+    direct, inverse, velocities = section.results
+    assert "det Jp, the determinant of the left side, vanishes where" in velocities.caption
+    assert "link 12 and parallelogram $" in velocities.caption
     assert direct.text.startswith("There are 8 branches; each closes every loop")
     assert inverse.text.startswith("There are 32 branches")
     reasons, *sets = direct.results
@@ -23,7 +25,11 @@ def test_every_formula_is_mathematics():
     for name in ("zeng2019", "delta_4s"):
         (section,) = analytic_solutions(load_record(name))
         lines = [
-            line for part in section.results for own in part.results if isinstance(own, Formulas) for line in own.lines
+            line
+            for part in section.results[:2]
+            for own in part.results
+            if isinstance(own, Formulas)
+            for line in own.lines
         ]
         assert len(lines) > 40
         assert not [line.mathml for line in lines if "merror" in line.mathml]
@@ -32,4 +38,4 @@ def test_every_formula_is_mathematics():
 def test_what_is_not_derived_has_no_section():
     assert [*analytic_solutions(load_record("gough_stewart"))] == []
     (section,) = analytic_solutions(load_record("three_rrrp4r"))
-    assert [own.title for own in section.results] == ["The inverse problem by formulas"]
+    assert section.results[0].title == "The inverse problem by formulas"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from assur.derivation.formula_latex import width
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.printed_derivation import PrintedProblem, printed_derivation
+from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.written_solution import WrittenFormula, WrittenPart
@@ -23,6 +25,8 @@ HELD = {
     True: "each closes every loop, which was held against them modulo a prime of 160 bits",
     False: "NOT ALL of them close every loop",
 }
+LINE = 56
+"""Letters for which a page has room on a line."""
 PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
 
 
@@ -35,8 +39,11 @@ def analytic_solutions(record: MechanismRecord) -> Iterator[Section]:
         except NotDerivedError:
             continue
     if solved:
-        parts = printed_derivation(record, solved, {}).problems
-        yield Section("Analytic solution", SAID, [_problem(own) for own in parts])
+        derivation = printed_derivation(record, solved, {})
+        parts: list[Result | Section] = [_problem(own) for own in derivation.problems]
+        if derivation.velocities is not None:
+            parts.append(_velocities(derivation.velocities))
+        yield Section("Analytic solution", SAID, parts)
 
 
 def _problem(own: PrintedProblem) -> Section:
@@ -59,8 +66,27 @@ def _formulas(part: WrittenPart) -> Iterator[Formulas]:
     said = [block for block in part.blocks if isinstance(block, str) and block.endswith(".")]
     if lines:
         first = [part.blocks[0].partition(" The loop equations")[0]] if isinstance(part.blocks[0], str) else []
-        yield Formulas(part.title, tuple(map(_line, lines)), " ".join([*first, *said]))
+        yield Formulas(part.title, tuple(own for line in lines for own in _lines(line)), " ".join([*first, *said]))
 
 
-def _line(formula: WrittenFormula) -> PrintedFormula:
-    return PrintedFormula(display(latex_mathml(formula.latex)))
+def _lines(formula: WrittenFormula) -> Iterator[PrintedFormula]:
+    """A formula on as few lines as a page has room for."""
+    rows = [f"{formula.left} {formula.relation}"]
+    for row in formula.rows:
+        if width(rows[-1]) + width(row) > LINE and len(rows[-1]) > len(formula.left) + len(formula.relation) + 1:
+            rows.append(rf"\quad {row}")
+        else:
+            rows[-1] = f"{rows[-1]} {row}"
+    return (PrintedFormula(display(latex_mathml(row))) for row in rows)
+
+
+def _velocities(own: PrintedVelocities) -> Formulas:
+    """The equations between rates; where both determinants vanish is the caption."""
+    said = []
+    for kind, name in (("parallel", "det Jp"), ("serial", "det Jq")):
+        places = [f"{f'${factor.formula} = 0$: ' if factor.formula else ''}{factor.meaning}"
+                  for factor in own.factors if factor.kind == kind]  # fmt: skip
+        where = f"vanishes where {'; '.join(places)}" if places else "never vanishes"
+        said.append(f"{name}, the determinant of the {'left' if kind == 'parallel' else 'right'} side, {where}.")
+    lines = tuple(line for equation in own.equations for line in _lines(equation))
+    return Formulas("Velocities and singular configurations", lines, " ".join(said))
