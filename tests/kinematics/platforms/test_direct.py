@@ -44,7 +44,7 @@ ARRANGEMENTS = {
     "3-UPS/S": ("3-UPS/S",),
     "ball screws in legs": ("--limb", "U[x,y] {R[z]@O H[z]@O | P[z]} S", "--count", "3"),
 }
-QUICK = ("6-RUS", "3-SPR", "2UPR-SPR", "3-RRR", "ball screws in legs")
+QUICK = ("3-SPR", "2UPR-SPR", "ball screws in legs")
 
 
 @pytest.fixture(
@@ -80,7 +80,7 @@ def test_a_draft_has_all_that_a_search_meets(drafted):
 def test_the_loops_in_turn_give_the_same(name):
     """Another way to all roots, which shares no equation: points on circles, eliminated one after another."""
     record = load_record(name)
-    for seed in range(3):
+    for seed in range(2):
         inputs = beside_home(record, seed)
         loops, solutions = solve_by_loops(record, inputs), direct_by_conditions(record, inputs)
         assert (loops.complete, solutions.complete) == (True, True)

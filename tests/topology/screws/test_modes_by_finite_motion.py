@@ -10,7 +10,7 @@ from assur.topology.screws.placing import place
 from assur.topology.screws.second_order import finite_motion, second_order
 from mobility_oracle import finite_outcomes, least_sum_of_degrees, outcomes, random_mechanism
 
-QUICK, ALL, TOGETHER = 50, 1000, 250
+QUICK, ALL, TOGETHER = 20, 1000, 250
 REFUSED = 0.03
 """Share of mechanisms that may be refused, which ends `assur topology` with another exit code than 0."""
 
