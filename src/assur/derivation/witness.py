@@ -29,16 +29,16 @@ class NoResidueRootError(ArithmeticError):
 
 
 class ModularWitness:
-    """Values of symbols in F_p(i).
+    """Values of symbols in F_p(i), for a prime between a bound and twice it.
 
     >>> x, y = sympy.symbols("x y")
     >>> ModularWitness(1).is_zero((x + y) ** 2 - x**2 - 2 * x * y - y**2)
     True
     """
 
-    def __init__(self, seed: int = 0) -> None:
+    def __init__(self, seed: int = 0, least: int = LARGE) -> None:
         self._random = np.random.default_rng(seed)
-        self.field = PrimeField.drawn(self._random, LARGE)
+        self.field = PrimeField.drawn(self._random, least)
         self._circles: list[tuple[sympy.Symbol, sympy.Symbol]] = []
         self._definitions: list[tuple[Sequence[sympy.Symbol], Callable[[], Sequence[Element]]]] = []
         self._values: dict[Any, Element] = {}

@@ -1,0 +1,174 @@
+"""Systems of polynomials modulo a prime, and how many solutions they have: the monomials under a Groebner basis.
+
+msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else SymPy does, in a process
+that is stopped when its time is over. Run as a module, it counts the system on its standard input.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+Monomial = tuple[int, ...]
+Polynomial = Mapping[Monomial, int]
+"""Powers of the unknowns -> coefficient, below the prime."""
+MOST = 100_000
+"""Monomials that are counted; more solutions are not told apart from infinitely many."""
+
+
+@dataclass(frozen=True)
+class ResidueSystem:
+    """Polynomials in some unknowns, modulo a prime."""
+
+    prime: int
+    unknowns: int
+    polynomials: tuple[Polynomial, ...]
+
+    def reduced(self) -> ResidueSystem:
+        """The same solutions in fewer unknowns: those are left out that linear equations say.
+
+        >>> ResidueSystem(7, 2, ({(1, 0): 1, (0, 1): 6}, {(2, 0): 1, (0, 1): 1, (0, 0): 6})).reduced().polynomials
+        ({(1,): 1, (2,): 1, (0,): 6},)
+        """
+        left = [dict(own) for own in self.polynomials]
+        gone = list[int]()
+        while (linear := next((own for own in left if max(map(sum, own), default=0) == 1), None)) is not None:
+            left.remove(linear)
+            place = next(k for powers in linear for k in range(self.unknowns) if powers[k])
+            unit = tuple(int(k == place) for k in range(self.unknowns))
+            factor = -pow(linear[unit], -1, self.prime)
+            value = {powers: part * factor % self.prime for powers, part in linear.items() if powers != unit}
+            left = [own for own in (self._replaced(other, place, value) for other in left) if own]
+            gone.append(place)
+        kept = [k for k in range(self.unknowns) if k not in gone]
+        shorter = tuple({tuple(powers[k] for k in kept): part for powers, part in own.items()} for own in left)
+        return ResidueSystem(self.prime, len(kept), shorter)
+
+    def _replaced(self, own: Polynomial, place: int, value: Polynomial) -> dict[Monomial, int]:
+        total: dict[Monomial, int] = {}
+        for powers, part in own.items():
+            terms: dict[Monomial, int] = {(*powers[:place], 0, *powers[place + 1 :]): part}
+            for _ in range(powers[place]):
+                terms = self._product(terms, value)
+            for key, factor in terms.items():
+                total[key] = (total.get(key, 0) + factor) % self.prime
+        return {key: factor for key, factor in total.items() if factor}
+
+    def _product(self, first: Polynomial, second: Polynomial) -> dict[Monomial, int]:
+        total: dict[Monomial, int] = {}
+        for a, x in first.items():
+            for b, y in second.items():
+                key = tuple(p + q for p, q in zip(a, b, strict=True))
+                total[key] = (total.get(key, 0) + x * y) % self.prime
+        return total
+
+    def count(self, seconds: float) -> tuple[int | None, str]:
+        """How many solutions there are, with their multiplicities, and by which program.
+
+        None: infinitely many. Errors: TimeoutError.
+
+        >>> ResidueSystem(7, 1, ({(2,): 1, (0,): 6},)).count(60.0)[0]
+        2
+        """
+        own = self.reduced()
+        if any(not any(powers for powers in part if any(powers)) and part for part in own.polynomials):
+            return 0, "linear equations"
+        if own.unknowns == 0:
+            return 1, "linear equations"
+        program = shutil.which("msolve")
+        try:
+            return (own._by_msolve(program, seconds), "msolve") if program else (own._by_sympy(seconds), "sympy")
+        except subprocess.TimeoutExpired as error:
+            raise TimeoutError(f"not counted in {seconds:g} s") from error
+
+    def _by_msolve(self, program: str, seconds: float) -> int | None:
+        names = [f"x{k}" for k in range(1, self.unknowns + 1)]
+        with tempfile.TemporaryDirectory() as folder:
+            given, answer = Path(folder, "in.ms"), Path(folder, "out.ms")
+            given.write_text(f"{','.join(names)}\n{self.prime}\n{_joined(self.polynomials, names)}\n", encoding="ascii")
+            words = [program, "-g", "1", "-t", "1", "-f", str(given), "-o", str(answer)]
+            run = subprocess.run(words, timeout=seconds, check=False, capture_output=True)  # noqa: S603
+            text = answer.read_text(encoding="ascii") if answer.is_file() else ""
+        found = re.search(r"\[([^\]]*)\]", text)
+        if run.returncode != 0 or found is None:
+            return self._by_sympy(seconds)
+        return staircase([_monomial(part, names) for part in found[1].split(",")], self.unknowns)
+
+    def _by_sympy(self, seconds: float) -> int | None:
+        data = [self.prime, self.unknowns, [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials]]
+        words = [sys.executable, "-m", "assur.derivation.residue_systems"]
+        run = subprocess.run(  # noqa: S603
+            words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True
+        )
+        return staircase([tuple(powers) for powers in json.loads(run.stdout)], self.unknowns)
+
+
+def _joined(polynomials: Sequence[Polynomial], names: Sequence[str]) -> str:
+    """Polynomials as msolve reads them."""
+
+    def term(powers: Monomial, part: int) -> str:
+        return "*".join([str(part), *(f"{name}^{power}" for name, power in zip(names, powers, strict=True) if power)])
+
+    return ",\n".join("+".join(term(*item) for item in own.items()) for own in polynomials)
+
+
+def _monomial(text: str, names: Sequence[str]) -> Monomial:
+    """A leading monomial as msolve writes it.
+
+    >>> _monomial("x1^1*x3^2", ["x1", "x2", "x3"]), _monomial("1", ["x1"])
+    ((1, 0, 2), (0,))
+    """
+    powers = {name: int(power) for name, power in re.findall(r"(x\d+)\^(\d+)", text)}
+    return tuple(powers.get(name, 0) for name in names)
+
+
+def staircase(leading: Sequence[Monomial], unknowns: int) -> int | None:
+    """How many monomials no leading one divides; None where there are infinitely many.
+
+    >>> staircase([(1, 1), (2, 0), (0, 3)], 2), staircase([(1, 1), (2, 0)], 2), staircase([(0, 0)], 2)
+    (4, None, 0)
+    """
+    pure = [min((own[k] for own in leading if sum(own) == own[k]), default=None) for k in range(unknowns)]
+    if any(own is None for own in pure):
+        return None
+    return sum(1 for _ in _under([*leading], unknowns, ()))
+
+
+def _under(leading: Sequence[Monomial], unknowns: int, powers: Monomial) -> Iterator[Monomial]:
+    """Monomials that begin with some powers and are not divided."""
+    place = len(powers)
+    if any(all(a <= b for a, b in zip(own, powers, strict=False)) and not any(own[place:]) for own in leading):
+        return
+    if place == unknowns:
+        yield powers
+        return
+    for power in range(MOST):
+        before = False
+        for own in _under(leading, unknowns, (*powers, power)):
+            before = True
+            yield own
+        if not before:
+            return
+
+
+def _leading(prime: int, unknowns: int, polynomials: Sequence[Sequence[tuple[Sequence[int], int]]]) -> list[Monomial]:
+    """Leading monomials of a Groebner basis, by SymPy."""
+    from sympy import GF
+    from sympy.polys.groebnertools import groebner
+    from sympy.polys.orderings import grevlex
+    from sympy.polys.rings import ring
+
+    own, *_ = ring([f"x{k}" for k in range(unknowns)], GF(prime), grevlex)
+    given = [own.from_dict({tuple(powers): GF(prime)(part) for powers, part in part_list}) for part_list in polynomials]
+    return [tuple(polynomial.LM) for polynomial in groebner(given, own)]
+
+
+if __name__ == "__main__":
+    sys.stdout.write(json.dumps(_leading(*json.loads(sys.stdin.read()))))
