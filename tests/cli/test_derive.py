@@ -154,3 +154,22 @@ def test_the_document_of_a_polynomial_says_its_degree_and_what_follows_of_a_root
     parts = ("These belong together", r"a polynomial of degree 6", "At each of its roots", "over complex numbers")
     places = [text.index(part) for part in parts]
     assert places == sorted(places)
+
+
+@pytest.mark.parametrize(("words", "code"), [([], 0), (["--square-roots"], 4)])
+def test_a_polynomial_is_no_answer_where_square_roots_are_asked_for(words, code, assur_cli):
+    run = assur_cli("derive", "planar_3rrr", "--problem", "direct", *words, "--json")
+    assert (run.code, run.json["problems"][0]["square_roots"]) == (code, "no")
+
+
+def test_square_roots_are_one(assur_cli):
+    run = assur_cli("derive", "fivebar", "--square-roots", "--json")
+    assert (run.code, [own["square_roots"] for own in run.json["problems"]]) == (0, ["yes", "yes"])
+
+
+def test_proof_counts_solutions_beside_the_branches_and_says_that_they_are_complex(assur_cli):
+    run = assur_cli("derive", "fivebar", "--problem", "direct", "--prove")
+    text = " ".join(run.out.split())
+    assert run.code == 0
+    assert "2 solutions over complex numbers, counted by" in text
+    assert "probable, not proved" in text

@@ -32,6 +32,9 @@ def derive(
     prove: Annotated[
         bool, Parameter(negative=(), help="Write an identity for each step into the data, which `assur verify` checks.")
     ] = False,
+    square_roots: Annotated[
+        bool, Parameter(negative=(), help="Ask for square roots alone: 4 where it is proved that none will do.")
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Derive the analytic solution of a mechanism from its joint graph.
@@ -48,10 +51,14 @@ def derive(
     as closed_form.py it makes every command fast, and `assur check` holds it
     against the joint graph. Exit codes: 0, square roots or one polynomial, and
     whether it is proved that no square roots would do; 5, a set of links
-    resists, and is named. --latex writes what a paper prints: symbols, reasons,
+    resists: it is named, with its unknowns and, probably, its number of
+    solutions, after what was solved before it. With --square-roots a polynomial
+    is no answer: 4 where it is proved that square roots alone will not do, of
+    one problem or of both, else 5. --latex writes what a paper prints: symbols, reasons,
     set by set the equations and their solution, branches, an example. --prove
     adds to --json why no branch is missing: each equation and each formula as a
-    sum of multiples of those before it, for `assur verify`.
+    sum of multiples of those before it, for `assur verify`; what holds where a
+    condition does not; and the solutions counted modulo two primes.
 
     For example:
         assur derive zeng2019
@@ -65,4 +72,4 @@ def derive(
     from assur.cli.progress import progress
 
     with progress(f"deriving {record.name}", shared):
-        return derive_answer.outcome(record, problem, output, latex, c, prove)
+        return derive_answer.outcome(record, problem, output, latex, c, prove, square_roots)

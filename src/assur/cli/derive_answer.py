@@ -19,25 +19,33 @@ from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.identities import NoIdentityError
 from assur.derivation.kept import derived_closed_form
 from assur.derivation.linear import value_of
-from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.not_derived import NotDerivedError, ResistingSetError
+from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
 from assur.derivation.proof import proof
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reasons import sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
+from assur.derivation.solution_count import SECONDS, solution_count
 from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
 from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import (
+    CountedSolutions,
     DerivationAnswer,
     DerivedChoice,
     DerivedFactor,
     DerivedProblem,
     DerivedReason,
     DerivedSet,
+    ResistingSet,
 )
 from assur.results.files import write_whole
+
+NAMES: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
+FEW_SECONDS = 10.0
+"""For a count that nobody asked for."""
 
 
 def outcome(
@@ -47,6 +55,7 @@ def outcome(
     latex: str | None = None,
     c: str | None = None,
     prove: bool = False,
+    square_roots: bool = False,
 ) -> Outcome:
     """What was derived, as data and for a person; written where a file is named."""
     document = None if latex is None else output_file(latex, (".tex",))
@@ -61,6 +70,8 @@ def outcome(
     if document is not None:
         _write_document(document, record, parts)
     fine = fine and not not_written
+    parts = tuple(_with_count(record, part, prove) for part in parts)
+    fine = fine and all(part.count is ABSENT or part.count.solutions in (None, part.branches) for part in parts)
     if prove:
         parts = tuple(_with_proof(record, part) for part in parts)
         fine = fine and all(part.not_proved is ABSENT for part in parts)
@@ -73,7 +84,8 @@ def outcome(
         str(source) if source is not None and fine else ABSENT,
         factors=tuple(own for part in parts if part.problem == "inverse" and not part.why for own in _factors(record)),
     )
-    return Outcome(data, lambda: _shown(data), exit_code=exit_codes.FINE if fine else exit_codes.UNDECIDED)
+    answers = [part.square_roots for part in parts] if square_roots else []
+    return Outcome(data, lambda: _shown(data), exit_code=exit_codes.of_answers([*answers, "yes" if fine else "open"]))
 
 
 def _not_written(record: Mechanism, path: Path | None, source: Path | None) -> str:
@@ -99,9 +111,8 @@ def _write_document(path: Path, record: Mechanism, parts: Sequence[DerivedProble
     from assur.derivation.printed_derivation import printed_derivation
     from assur.derived_topology import topology
 
-    names: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
-    solved = {names[own.problem]: analytic_solution(record, names[own.problem]) for own in parts if not own.why}
-    why = {names[own.problem]: own.why for own in parts if own.why}
+    solved = {NAMES[own.problem]: analytic_solution(record, NAMES[own.problem]) for own in parts if not own.why}
+    why = {NAMES[own.problem]: own.why for own in parts if own.why}
     try:
         loops = topology(record)
     except AssurError:  # a mechanism may have formulas and no topology that the theory gives
@@ -114,10 +125,28 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         solution = analytic_solution(record, problem)
         if not solution.closes():
             raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
+    except ResistingSetError as error:
+        resists = ResistingSet(
+            tuple(direction.name for direction in error.left),
+            tuple(tuple(unknown.name for unknown in direction.unknowns) for direction in error.left),
+        )
+        return DerivedProblem(
+            problem, "not_derived", str(error), None, None, tuple(_reasons(error.placed)), (*record.generalised,),
+            _sets(error.sets), {}, {}, resists=resists,
+        )  # fmt: skip
     except NotDerivedError as error:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
-    reach = ReachMeanings(solution)
-    sets = tuple(
+    return DerivedProblem(
+        problem, "derived", "", solution.branches, True, tuple(_reasons(solution.placed)), (*record.generalised,),
+        _sets(solution.sets, ReachMeanings(solution)), {own.symbol.name: str(own.formula) for own in solution.lengths},
+        dict(_results(solution)), solution.group.sentence if solution.group else "",
+        square_roots="yes" if solution.eliminant is None
+        else "no" if solution.group is not None and solution.group.no_tower else "open",
+    )  # fmt: skip
+
+
+def _sets(parts: Sequence[SolvedSet], reach: ReachMeanings | None = None) -> tuple[DerivedSet, ...]:
+    return tuple(
         DerivedSet(
             tuple(direction.name for direction in part.directions),
             tuple(tuple(unknown.name for unknown in direction.unknowns) for direction in part.directions),
@@ -127,24 +156,29 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
             {own.symbol.name: str(own.formula) for own in part.formulas},
             tuple(DerivedChoice(own.symbol.name, own.radicand.name, str(own.quantity)) for own in part.roots),
             part.count,
-            dict(_meanings(reach, part)),
+            {} if reach is None else dict(_meanings(reach, part)),
         )
-        for part in solution.sets
+        for part in parts
     )
-    return DerivedProblem(
-        problem, "derived", "", solution.branches, True, tuple(_reasons(solution)), (*record.generalised,),
-        sets, {own.symbol.name: str(own.formula) for own in solution.lengths}, dict(_results(solution)),
-        solution.group.sentence if solution.group else "",
-    )  # fmt: skip
+
+
+def _with_count(record: Mechanism, part: DerivedProblem, prove: bool) -> DerivedProblem:
+    """A problem with its number of solutions, where that is asked for or a set resists."""
+    if not prove and part.resists is ABSENT:
+        return part
+    try:
+        own = solution_count(record, NAMES[part.problem], SECONDS if prove else FEW_SECONDS)
+    except NotDerivedError:
+        return part
+    return replace(part, count=CountedSolutions(own.solutions, own.why, own.primes, own.seeds, own.program))
 
 
 def _with_proof(record: Mechanism, part: DerivedProblem) -> DerivedProblem:
     """A problem with an identity for each step; why there are none, where that is so."""
     if part.status != "derived":
         return part
-    names: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
     try:
-        return replace(part, proof=proof(analytic_solution(record, names[part.problem])))
+        return replace(part, proof=proof(analytic_solution(record, NAMES[part.problem])))
     except NoIdentityError as error:
         return replace(part, not_proved=str(error))
 
@@ -166,8 +200,8 @@ def _factors(record: Mechanism) -> Iterator[DerivedFactor]:
             yield DerivedFactor(name, kind, str(value), meanings.of(value, kind).text)
 
 
-def _reasons(solution: AnalyticSolution) -> Iterator[DerivedReason]:
-    for text, own in zip(sentences(solution.placed), solution.placed.reasons, strict=True):
+def _reasons(placed: LinkOrientations) -> Iterator[DerivedReason]:
+    for text, own in zip(sentences(placed), placed.reasons, strict=True):
         axes = direction(own.first), direction(own.second)
         yield DerivedReason(text, own.link, own.carrier, axes, (own.first_joints, own.second_joints))
 
@@ -181,32 +215,23 @@ def _results(solution: AnalyticSolution) -> Iterator[tuple[str, str]]:
 
 def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     for part in data.problems:
-        if part.status == "derived":
-            yield heading(f"{data.mechanism}, {part.problem}: {part.branches} branches")
-            yield from (f"{k}. {own.text}" for k, own in enumerate(part.reasons, start=1))
-            for own in part.sets:
-                yield ""
-                yield f"{' and '.join(own.links)}: {own.roots} roots"
-                yield from (Verbatim(f"    {text}") for text in (*own.equations, *own.lines))
-                yield from (Verbatim(f"    where {text}") for text in own.conditions)
-                yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
-                radicands = {choice.radicand for choice in own.choices}
-                yield from (
-                    f"  {name} {'<' if name in radicands else '='} 0: {text}" for name, text in own.meanings.items()
-                )
+        derived = part.status == "derived"
+        yield heading(f"{data.mechanism}, {part.problem}: {f'{part.branches} branches' if derived else 'not derived'}")
+        yield from (f"{k}. {own.text}" for k, own in enumerate(part.reasons, start=1))
+        for own in part.sets:
             yield ""
-            yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
-            proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
-            yield f"{proved}, modulo a prime of 160 bits"
-            if part.not_proved is not ABSENT:
-                yield f"not proved that no branch is missing: {part.not_proved}"
-            if part.proof is not ABSENT:
-                yield "every step is an identity, in the data (--json): assur verify checks them"
-            if part.proved:
-                yield f"proved by factors modulo primes: {part.proved}"
-        else:
-            yield heading(f"{data.mechanism}, {part.problem}: not derived")
-            yield part.why
+            yield f"{' and '.join(own.links)}: {own.roots} roots"
+            yield from (Verbatim(f"    {text}") for text in (*own.equations, *own.lines))
+            yield from (Verbatim(f"    where {text}") for text in own.conditions)
+            yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
+            radicands = {choice.radicand for choice in own.choices}
+            yield from (
+                f"  {name} {'<' if name in radicands else '='} 0: {text}" for name, text in own.meanings.items()
+            )
+        if part.sets or part.reasons:
+            yield ""
+        yield from _end(part) if derived else _resistance(part)
+        yield from _counted(part)
         yield ""
     if data.factors:
         yield "det Jp and det Jq are products of"
@@ -220,3 +245,39 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"
+
+
+def _end(part: DerivedProblem) -> Iterator[RenderableType]:
+    """Results, and what is proved."""
+    yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
+    proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
+    yield f"{proved}, modulo a prime of 160 bits"
+    if part.not_proved is not ABSENT:
+        yield f"not proved that no branch is missing: {part.not_proved}"
+    if part.proof is not ABSENT:
+        yield "every step is an identity, in the data (--json): assur verify checks them"
+    if part.proved:
+        yield f"proved by factors modulo primes: {part.proved}"
+
+
+def _resistance(part: DerivedProblem) -> Iterator[str]:
+    """What is not solved, and why."""
+    if part.resists is not ABSENT:
+        unknowns = ", ".join(name for group in part.resists.unknowns for name in group)
+        yield f"{' and '.join(part.resists.links)}: not solved for {unknowns}"
+    yield part.why
+
+
+def _counted(part: DerivedProblem) -> Iterator[str]:
+    own = part.count
+    if own is ABSENT:
+        return
+    how = f"modulo {' and '.join(map(str, own.primes))}, drawn by seeds {' and '.join(map(str, own.seeds))}"
+    if own.solutions is None:
+        yield f"solutions not counted: {own.why}"
+        return
+    same = "" if part.branches in (None, own.solutions) else f", AND NOT {part.branches}"
+    yield (
+        f"{own.solutions} solutions over complex numbers{same}, counted by {own.program} without this elimination "
+        f"{how}: probable, not proved"
+    )

@@ -1,7 +1,8 @@
 """Systems of polynomials modulo a prime, and how many solutions they have: the monomials under a Groebner basis.
 
-msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else SymPy does, in a process
-that is stopped when its time is over. Run as a module, it counts the system on its standard input.
+msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else SymPy does, in a
+process that is stopped when its time is over. Run as a module, this finds the leading monomials of the system on its
+standard input.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class ResidueSystem:
         """The same solutions in fewer unknowns: those are left out that linear equations say.
 
         >>> ResidueSystem(7, 2, ({(1, 0): 1, (0, 1): 6}, {(2, 0): 1, (0, 1): 1, (0, 0): 6})).reduced().polynomials
-        ({(1,): 1, (2,): 1, (0,): 6},)
+        ({(2,): 1, (1,): 1, (0,): 6},)
         """
         left = [dict(own) for own in self.polynomials]
         gone = list[int]()
@@ -94,7 +95,7 @@ class ResidueSystem:
             given, answer = Path(folder, "in.ms"), Path(folder, "out.ms")
             given.write_text(f"{','.join(names)}\n{self.prime}\n{_joined(self.polynomials, names)}\n", encoding="ascii")
             words = [program, "-g", "1", "-t", "1", "-f", str(given), "-o", str(answer)]
-            run = subprocess.run(words, timeout=seconds, check=False, capture_output=True)  # noqa: S603
+            run = subprocess.run(words, timeout=seconds, check=False, capture_output=True)
             text = answer.read_text(encoding="ascii") if answer.is_file() else ""
         found = re.search(r"\[([^\]]*)\]", text)
         if run.returncode != 0 or found is None:
@@ -102,11 +103,13 @@ class ResidueSystem:
         return staircase([_monomial(part, names) for part in found[1].split(",")], self.unknowns)
 
     def _by_sympy(self, seconds: float) -> int | None:
-        data = [self.prime, self.unknowns, [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials]]
+        data = [
+            self.prime,
+            self.unknowns,
+            [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials],
+        ]
         words = [sys.executable, "-m", "assur.derivation.residue_systems"]
-        run = subprocess.run(  # noqa: S603
-            words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True
-        )
+        run = subprocess.run(words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True)
         return staircase([tuple(powers) for powers in json.loads(run.stdout)], self.unknowns)
 
 

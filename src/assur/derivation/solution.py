@@ -20,7 +20,7 @@ from assur.derivation.elimination import Root, SolvedSet, solution
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, UnknownDirection, loop_equations
-from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.not_derived import NotDerivedError, ResistingSetError
 from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets import next_set
 from assur.derivation.strokes import StrokeVector, stroke_vectors, with_strokes
@@ -159,7 +159,8 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
     fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
     lengths, forms = projected(sparse(forms, witness), fixed, witness)
-    sets = _sets(sparse([divided(form) for form in forms], witness), loops.directions, vectors, witness, record)
+    equations = sparse([divided(form) for form in forms], witness)
+    sets = _sets(equations, loops.directions, vectors, placed, witness, record)
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
@@ -171,15 +172,19 @@ def _sets(
     forms: Sequence[Form],
     directions: Sequence[UnknownDirection],
     vectors: Sequence[StrokeVector],
+    placed: LinkOrientations,
     witness: ModularWitness,
     record: MechanismRecord,
 ) -> tuple[SolvedSet, ...]:
     instead = {vector.circle: vector.direction for vector in vectors}
     left, sets, taken = [instead.get(own, own) for own in directions], list[SolvedSet](), _names(record)
     while left:
-        chosen, equations = next_set(forms, left, witness)
-        number = len(sets) + 1
-        plain = _solved(number, chosen, equations, witness, taken, record.platform.link)
+        chosen, number = tuple(left), len(sets) + 1
+        try:
+            chosen, equations = next_set(forms, left, witness)
+            plain = _solved(number, chosen, equations, witness, taken, record.platform.link)
+        except NotDerivedError as error:
+            raise ResistingSetError(str(error), placed, tuple(sets), chosen) from error
         sets.append(with_strokes(plain, vectors, number, witness, taken))
         left = [direction for direction in left if direction not in chosen]
         unknowns = [unknown for direction in left for unknown in direction.unknowns]
@@ -187,7 +192,8 @@ def _sets(
         forms = [form for form in forms if form.keys() & {*unknowns}]
     if sum(part.eliminant is not None for part in sets) > 1:
         names = " and ".join(part.name for part in sets if part.eliminant)
-        raise NotDerivedError(f"a polynomial for each root of another: {names}")
+        last = sets.pop()
+        raise ResistingSetError(f"a polynomial for each root of another: {names}", placed, tuple(sets), last.directions)
     return tuple(sets)
 
 

@@ -122,13 +122,36 @@ class DerivationProof:
 
 
 @dataclass(frozen=True)
+class ResistingSet:
+    """Links that are not solved for, and the unknowns of each, after the sets that are."""
+
+    links: tuple[str, ...]
+    unknowns: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
+class CountedSolutions:
+    """How many solutions the loop equations have over complex numbers, real ones among them: probable, not proved.
+
+    Dimensions and inputs are drawn by `seeds`; `program` counted modulo `primes`. `why` says why nothing is counted.
+    """
+
+    solutions: int | None
+    why: str
+    primes: tuple[int, ...]
+    seeds: tuple[int, ...]
+    program: str
+
+
+@dataclass(frozen=True)
 class DerivedProblem:
     """The direct or the inverse problem.
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
     parallelograms that stay such; `lengths` are found after the sets. `proof` is there where it is asked for, or
-    `not_proved` says why it is not.
+    `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
+    that is not solved; `count` the number of solutions, found without any of the elimination.
     """
 
     problem: str
@@ -144,6 +167,9 @@ class DerivedProblem:
     proved: str = ""
     proof: DerivationProof | Absent = ABSENT
     not_proved: str | Absent = ABSENT
+    square_roots: Literal["yes", "no", "open"] = "open"
+    resists: ResistingSet | Absent = ABSENT
+    count: CountedSolutions | Absent = ABSENT
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,63 @@
+"""Solutions counted modulo primes, without the elimination, are as many as the derived branches."""
+
+import stat
+
+import pytest
+
+from assur.derivation import residue_systems
+from assur.derivation.residue_systems import ResidueSystem
+from assur.derivation.solution import analytic_solution
+from assur.derivation.solution_count import solution_count
+from assur.model.registry import load_record
+
+QUICK = ("fivebar", "zeng2019")
+OTHERS = ("planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide",
+          "tsai_platform", "three_p2us", "three_crr", "tripteron")  # fmt: skip
+
+
+@pytest.fixture
+def no_msolve(monkeypatch):
+    monkeypatch.setattr(residue_systems.shutil, "which", lambda _: None)
+
+
+@pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.deep) for name in OTHERS)])
+def test_the_count_is_that_of_the_branches(name, no_msolve):
+    record = load_record(name)
+    own = solution_count(record, "direct")
+    assert (own.solutions, own.why, own.program) == (analytic_solution(record, "direct").branches, "", "sympy")
+    assert len({*own.primes}) == 2
+
+
+CIRCLES = ResidueSystem(101, 2, ({(2, 0): 1, (0, 2): 1, (0, 0): 100}, {(1, 1): 1, (0, 0): 98}))
+"""x^2 + y^2 = 1 and x y = 3."""
+
+
+def test_a_count_over_the_time_is_none(no_msolve):
+    with pytest.raises(TimeoutError, match="not counted"):
+        CIRCLES.count(0.01)
+
+
+@pytest.mark.parametrize(
+    ("polynomials", "expected"),
+    [
+        (({(1, 0): 1, (0, 1): 1}, {(1, 0): 2, (0, 1): 2, (0, 0): 1}), 0),
+        (({(1, 0): 1, (0, 1): 1}, {(1, 0): 1, (0, 1): 100}), 1),
+        (({(2, 0): 1, (0, 1): 1},), None),
+        (({(2, 0): 1, (0, 0): 1}, {(0, 2): 1, (0, 0): 100}), 4),
+        (({(2, 0): 1, (0, 0): 1}, {(2, 0): 1, (0, 0): 3}), 0),
+    ],
+)
+def test_none_and_infinitely_many_are_told(polynomials, expected, no_msolve):
+    assert ResidueSystem(101, 2, polynomials).count(60.0)[0] == expected
+
+
+def test_a_program_on_the_path_is_asked_first(tmp_path, monkeypatch):
+    """What it is given and what it answers are as msolve 0.9 has them."""
+    program = tmp_path / "msolve"
+    head = "#Leading ideal data\\n#---\\n#field characteristic: 101\\n#---\\n"
+    lines = ["#!/bin/sh", f'cp "$6" {tmp_path}/given', f"printf '{head}[x1^1*x2^1,\\nx1^2,\\nx2^3]:\\n' > \"$8\""]
+    program.write_text("\n".join(lines) + "\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setattr(residue_systems.shutil, "which", lambda _: str(program))
+    assert CIRCLES.count(60.0) == (4, "msolve")
+    assert (tmp_path / "given").read_text() == "x1,x2\n101\n1*x1^2+1*x2^2+100,\n1*x1^1*x2^1+98\n"
