@@ -64,7 +64,8 @@ def changed_formula(problem):
 
 
 def changed_name(problem):
-    problem["sets"][0]["formulas"]["L1"] = "B1**2 + C1**2"
+    formulas = problem["sets"][0]["formulas"]
+    formulas["L1"] = f"-({formulas['L1']})"
 
 
 def changed_radicand(problem):
