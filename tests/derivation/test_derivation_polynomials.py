@@ -18,6 +18,7 @@ from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
 from assur.topology.notation import parse_chains
+from catalogue import each
 
 DRAFTS = {
     "rrr": repeated("R[z] R[z] R[z]", 3),
@@ -50,7 +51,7 @@ def apart(record, first, second):
     return float(np.max(np.min(np.max(gaps, axis=-1), axis=1)))
 
 
-@pytest.fixture(scope="module", params=[*DRAFTS])
+@pytest.fixture(scope="module", params=each(DRAFTS, ["mixed"]))
 def draft(request, tmp_path_factory):
     """A draft, and the same with its derived form."""
     folder = tmp_path_factory.mktemp(request.param)
