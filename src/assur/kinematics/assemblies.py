@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from assur.errors import Interrupted
 from assur.joint_graph.geometry import characteristic_length, joint_scales
+from assur.joint_graph.turns import screws_among
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import RANK_GAP, assemble, closing_system
 from assur.kinematics.coaxial_screws import MergedPair, merged_pair
@@ -30,6 +31,13 @@ from assur.kinematics.validation.check import check
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
+CHECKED, CHECKED_STEPS = 4, 40
+"""Starts from which assemblies are met that must be among those that are called all, and steps of each."""
+
+ANOTHER = 1e-2
+"""Distance of places, in characteristic lengths, from which they are another assembly for certain: where two merge they
+are known to half of the digits."""
+
 POINTS = 8
 """Assemblies that are listed of self-motions, which have infinitely many."""
 
@@ -92,12 +100,38 @@ def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed
             return turn
     by_limbs = inverse_by_limbs if problem == "inverse" else direct_by_conditions
     own = by_limbs(record, given, crossed=crossed)
-    if own and own.complete:
+    if own.complete:
         return own if crossed else _uncrossed(record, own)
     pair = merged_pair(record, problem)
     if pair and (merged := _with_pair(pair, problem, given, crossed)):
         return merged
-    return turn or solve_by_loops(record, **asked, crossed=crossed)
+    turn = turn or solve_by_loops(record, **asked, crossed=crossed)
+    return replace(turn, right=f"{turn.right}; {_why(own)}")
+
+
+def _missed(record: MechanismRecord, problem: Problem, given: FloatArray, known: LoopSolutions) -> bool:
+    """Whether an assembly is none of what is called all: a few are met from home and by chance, to make sure.
+
+    What screws have turned further than is told is left aside, and what is crossed where that is left out.
+    """
+    if np.any(screws_among(record)):
+        return False
+    starts = np.concatenate([home_values(record)[None], by_chance(record, CHECKED - 1, np.random.default_rng(7))])
+    if problem == "direct":
+        starts = held_inputs(record, starts, given)
+        closed = assemble(record, starts, held=record.input_indices, far=True, max_steps=CHECKED_STEPS)
+    else:
+        closed = assemble(record, starts, poses=given, far=True, max_steps=CHECKED_STEPS)
+    met = closed.values[closed.closed]
+    if known.kept:
+        met = met[[not crossed_parallelograms(record, row) for row in met]]
+    where = places(record, known.joints)
+    return any(np.min(np.max(np.abs(where - row), axis=1), initial=np.inf) > ANOTHER for row in places(record, met))
+
+
+def _why(solutions: LoopSolutions) -> str:
+    """Why solutions are not known to be all."""
+    return solutions.right.removeprefix("not proved, since ").removeprefix("not proved: ")
 
 
 def _with_pair(pair: MergedPair, problem: Problem, given: FloatArray, crossed: bool) -> LoopSolutions | None:
@@ -124,7 +158,7 @@ def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutio
 def _of_self_motions(record: MechanismRecord, inputs: FloatArray) -> _Assemblies:
     """Of an architecturally singular mechanism: no assembly where that is proved, else points far from each other."""
     known = direct_by_conditions(record, inputs)
-    if known and known.complete:
+    if known.complete:
         return _Assemblies(known.joints, True, known.right, np.nan, False)
     begun = np.concatenate([home_values(record)[None], by_chance(record, STARTS - 1, np.random.default_rng(0))])
     closed = assemble(record, held_inputs(record, begun, inputs), held=record.input_indices, far=True)
@@ -165,19 +199,24 @@ def _assemblies(
 ) -> _Assemblies:
     if problem == "direct" and self_motion_dimension(record):
         return _of_self_motions(record, given)
+    why = ""
     if method != "search":
         turn = _known(record, problem, given, crossed)
+        if turn.complete and _missed(record, problem, given, turn):
+            turn = replace(
+                turn, complete=False, right=f"an assembly that was met by chance is none of these: {turn.right}"
+            )
         if turn.complete or method == "loops" or (crossed and len(turn.joints)):
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, bool(turn.kept), limbs=turn.limbs)
+        why = f"; no other way is complete, since {_why(turn)}"
     interrupted = False
     try:
         found = search(record, problem, given)
     except Interrupted as stop:
         found, interrupted = stop.answer, True
     last = f"{found.converged} of which converged, number {found.last_new} to the last new one"
-    reason = (
-        f"not proved: a search from {found.starts} starts, {last if len(found.joints) else 'none of which found one'}"
-    )
+    met = last if len(found.joints) else "none of which found one"
+    reason = f"not proved: a search from {found.starts} starts, {met}{why}"
     if method == "auto" and not interrupted:
         try:
             whole = solved_by_monodromy(record, problem, given, found.joints)

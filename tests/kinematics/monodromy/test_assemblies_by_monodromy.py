@@ -79,7 +79,7 @@ def unrecognised(monkeypatch):
     """As if neither loops nor limbs said anything."""
     nothing = LoopSolutions(np.zeros((0, 9)), False, "not proved", 0)
     monkeypatch.setattr(assemblies, "solve_by_loops", lambda *_, **__: nothing)
-    monkeypatch.setattr(assemblies, "direct_by_conditions", lambda *_, **__: None)
+    monkeypatch.setattr(assemblies, "direct_by_conditions", lambda *_, **__: nothing)
 
 
 def _assembled(record, inputs):

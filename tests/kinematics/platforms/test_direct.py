@@ -118,4 +118,8 @@ def test_a_platform_that_drives_leave_free_is_none_of_these(tmp_path):
     path = tmp_path / "mine.toml"
     assert main(["new", str(path), "--limb", "U[x,y] P[z] S", "--count", "6"]) == 0
     loose = dataclasses.replace(load_record(path), inputs=load_record(path).inputs[:5])
-    assert direct_by_conditions(loose, beside_home(loose, 1)) is None
+    answer = direct_by_conditions(loose, beside_home(loose, 1))
+    assert not answer.complete
+    assert (
+        answer.right == "not proved, since the quadrics that limbs say of the platform leave it infinitely many poses"
+    )

@@ -41,6 +41,9 @@ a real one misses it by as much as it was bent."""
 class MovingLimbError(Exception):
     """A limb closes in infinitely many ways, or nearly so."""
 
+    def __init__(self) -> None:
+        super().__init__("a limb closes in infinitely many ways, or nearly so")
+
 
 @dataclass(frozen=True, eq=False)
 class PointClosure:

@@ -194,7 +194,7 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
     kept = tuple(name for name in parallelograms(record) if name in parallel)
     note = staying_parallel(kept)
     if parallel & {*crossed_parallelograms(record, home_values(record))}:
-        return _nothing(record, False, "not proved, since a parallelogram is crossed at home")
+        return unsolved(record, False, "not proved, since a parallelogram is crossed at home")
     ways, error = [], None
     for orientation in question.orientations:
         try:
@@ -202,11 +202,11 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
         except NoAssemblyError as contradiction:
             error = contradiction
         except NotCirclesError as other:
-            return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {other}")
+            return unsolved(record, False, f"not proved, since the loops are no system of circles and spheres: {other}")
     if not ways:
         if question.tilt_open:
-            return _nothing(record, False, f"not proved, since {OPEN}: with those taken as zero {error}")
-        return replace(_nothing(record, True, f"there is no assembly: {error}{note}"), kept=kept)
+            return unsolved(record, False, f"not proved, since {OPEN}: with those taken as zero {error}")
+        return replace(unsolved(record, True, f"there is no assembly: {error}{note}"), kept=kept)
     parts = [_standing(question, way) for way in ways]
     right = " or ".join(dict.fromkeys(part.right for part in parts))
     if len(parts) > 1:
@@ -227,16 +227,16 @@ def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> Loo
     try:
         equations = system(record, turning, locked, question.place)
     except NotCirclesError as error:
-        return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {error}")
+        return unsolved(record, False, f"not proved, since the loops are no system of circles and spheres: {error}")
     try:
         equations, found = _solved(equations)
     except NotCirclesError as error:
-        return _nothing(record, False, f"not proved: {error}")
+        return unsolved(record, False, f"not proved: {error}")
     except CurveError as error:
         names = _names(equations)
         listed = " and ".join(names[number] for number in error.groups)
         nearly = "nearly " if error.error else ""
-        return _nothing(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
+        return unsolved(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
     starts = joint_values(equations, found.unknowns, locked)
     order = np.argsort(found.bent, kind="stable")
     kept = order[distinct(record, starts[order])]  # a rod may stand in two ways in which no joint is elsewhere
@@ -301,7 +301,8 @@ def _with_crossed(question: PositionQuestion) -> LoopSolutions:
     return LoopSolutions(joints, False, right, more.starts + sum(part.searched for part in parts))
 
 
-def _nothing(record: MechanismRecord, complete: bool, right: str) -> LoopSolutions:
+def unsolved(record: MechanismRecord, complete: bool, right: str) -> LoopSolutions:
+    """No assemblies: there are none, or they are not known, as `right` says."""
     return LoopSolutions(np.zeros((0, len(record.coordinates))), complete, right, 0)
 
 

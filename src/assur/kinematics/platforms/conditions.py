@@ -34,6 +34,9 @@ SURE = 1e3
 class UncertainConditionsError(Exception):
     """Whether something holds at all poses of a limb cannot be told from rounding."""
 
+    def __init__(self) -> None:
+        super().__init__("what limbs say of the platform cannot be told from rounding")
+
 
 @dataclass(frozen=True, eq=False)
 class Conditions:

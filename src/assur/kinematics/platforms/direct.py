@@ -15,9 +15,10 @@ from assur.kinematics.limbs.networks import Limb, limbs_of, limbs_of_middle
 from assur.kinematics.limbs.point_closure import MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError, SerialLimb
 from assur.kinematics.limbs.solving import LimbSolutions
-from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
+from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, unsolved
 from assur.kinematics.platforms.chains import closed_series, loop_of
 from assur.kinematics.platforms.conditions import UncertainConditionsError, joined
+from assur.kinematics.platforms.inverse import OPEN
 from assur.kinematics.platforms.limbs import closed_limb, held_limb, limb_conditions
 from assur.kinematics.platforms.poses import poses_under
 from assur.kinematics.search import distinct
@@ -29,8 +30,8 @@ AS_HELD = 1e-5
 LIMBS_OF_LOOP = 2
 
 
-def direct_by_conditions(record: MechanismRecord, inputs: FloatArray, *, crossed: bool = False) -> LoopSolutions | None:
-    """All assemblies at printed inputs (n,) of a platform on limbs; None where these leave it free.
+def direct_by_conditions(record: MechanismRecord, inputs: FloatArray, *, crossed: bool = False) -> LoopSolutions:
+    """All assemblies at printed inputs (n,) of a platform on limbs; not complete where their quadrics leave it free.
 
     Parallelograms of hinges stay such, unless `crossed` ones are asked for too.
 
@@ -43,9 +44,10 @@ def direct_by_conditions(record: MechanismRecord, inputs: FloatArray, *, crossed
     question = PositionQuestion(record, "direct", inputs)
     try:
         limbs = [held_limb(limb, question.locked) for limb in limbs_of(record, crossed=crossed)]
-        return _by_link(question, limbs) or _by_link(question, limbs_of_middle(limbs)) or _single_loop(question, limbs)
-    except (NotSerialError, MovingLimbError, UncertainConditionsError):
-        return None
+        known = _by_link(question, limbs) or _by_link(question, limbs_of_middle(limbs)) or _single_loop(question, limbs)
+    except (NotSerialError, MovingLimbError, UncertainConditionsError) as error:
+        return unsolved(record, False, f"not proved, since {error}")
+    return known or unsolved(record, False, f"not proved, since {OPEN}")
 
 
 def _by_link(question: PositionQuestion, limbs: Sequence[Limb] | None) -> LoopSolutions | None:

@@ -17,7 +17,7 @@ from assur.kinematics.limbs.networks import Limb, limbs_of
 from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError
 from assur.kinematics.limbs.solving import LimbSolutions
-from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
+from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, unsolved
 from assur.kinematics.platforms.conditions import (
     UncertainConditionsError,
     conditions_at,
@@ -37,12 +37,13 @@ from assur.numerics import rotations
 FloatArray = NDArray[np.float64]
 MOST = 4096
 """Assemblies that are listed at most."""
+OPEN = "the quadrics that limbs say of the platform leave it infinitely many poses"
 AS_GIVEN = 1e-5
 """By how much a pose may miss what is given, in characteristic lengths and rad, before loops are closed."""
 
 
-def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool = False) -> LoopSolutions | None:
-    """All assemblies at a pose (m,), limb by limb; None where the pose or the limbs are not of that kind.
+def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool = False) -> LoopSolutions:
+    """All assemblies at a pose (m,), limb by limb; not complete where the pose or the limbs are not of that kind.
 
     Parallelograms of hinges stay such, unless `crossed` ones are asked for too.
 
@@ -60,13 +61,13 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
         conditions = joined([given, *(limb_conditions(limb, size) for limb in series)])
         poses = poses_under(conditions, size) or poses_by_limb(record, pose, series)
         if poses is None:
-            return None
+            return unsolved(record, False, f"not proved, since {OPEN}")
         frames = [frame for frame in poses.frames if _as_given(record, pose, frame, size)]
         sets = [[closed_limb(limb, frame, size, record.input_indices) for limb in series] for frame in frames]
-    except (NotSerialError, MovingLimbError, UncertainConditionsError):
-        return None
+    except (NotSerialError, MovingLimbError, UncertainConditionsError) as error:
+        return unsolved(record, False, f"not proved, since {error}")
     if sum(prod(len(own.values) for own in limbs) for limbs in sets) > MOST:
-        return None
+        return unsolved(record, False, f"not proved, since there are more than {MOST}")
     right = _right(poses, len(frames), series, sets)
     pieces = [_starts(record, limbs) for limbs in sets] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
     starts, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))

@@ -28,7 +28,7 @@ from assur.model.file.values import (
 class Entry(BaseModel):
     """A table of the file: frozen, and with no keys but its own."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, defer_build=True)
 
 
 class ParameterEntry(Entry):

@@ -1,0 +1,28 @@
+"""What is called all is held against assemblies that are met from home and by chance."""
+
+from dataclasses import replace
+
+import pytest
+
+from assur.kinematics import assemblies
+from assur.kinematics.border import inputs_of
+from assur.kinematics.home import home_values
+from assur.kinematics.loops.loops import solve_by_loops
+from assur.model.registry import load_record
+
+
+@pytest.mark.parametrize("left", [0, 1])
+def test_a_proof_that_leaves_assemblies_out_is_none(left, monkeypatch):
+    """As if an error in a proof left all of them out, or all but one: the answer is that of a search then."""
+    record = load_record("planar_3rrr").without_closed_form
+    inputs = inputs_of(record, home_values(record))
+    whole = solve_by_loops(record, inputs)
+    assert not assemblies._missed(record, "direct", inputs, whole)
+    part = replace(whole, joints=whole.joints[:0] if left == 0 else whole.joints[1:2])
+    assert assemblies._missed(record, "direct", inputs, part)
+    monkeypatch.setattr(assemblies, "_known", lambda *_: part)
+    monkeypatch.setattr(assemblies, "solved_by_monodromy", lambda *_: None)
+    answer = assemblies.assemblies(record, "direct", inputs, "", "auto", crossed=False)
+    assert not answer.complete
+    assert "an assembly that was met by chance is none of these" in answer.right
+    assert len(answer.joints) == len(whole.joints)
