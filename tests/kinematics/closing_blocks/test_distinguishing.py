@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.joint_graph.frames import frames
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, distinguishing_signs
@@ -197,3 +198,24 @@ def test_a_limb_whose_screws_span_no_one_space_has_a_sign_at_those_that_leave_a_
 def test_every_limb_of_rods_on_balls_has_a_sign_of_its_own(own):
     """Of starts by chance hardly one closes there; each arm is in front of its rods or behind them, four arms are."""
     assert len(distinguishing_signs(own, "inverse")) == 4
+
+
+@pytest.mark.parametrize("own", ["cylinders"], indirect=True)
+def test_three_cylindrical_joints_are_told_apart_by_their_slides(own):
+    """Turns and slides have the same axes, so that the determinant of all six is a square."""
+    (sign,) = distinguishing_signs(own, "direct")
+    values = assemblies_by_chance(own)
+    assert {-1, 1} <= {*signs_of(own, "direct", values).ravel().tolist()}
+    assert len(sign.factors[0].rates.T) == 3
+
+
+def test_rods_on_universal_joints_are_named_as_rods_on_balls():
+    """Each slide of this Delta is on one side of its rods or the other, whichever way round a rod's joint stands."""
+    record = load_record("three_p2us")
+    signs = distinguishing_signs(record, "inverse")
+    assert [{name.partition(".")[0] for name in sign.joints} for sign in signs] == [{"leg1"}, {"leg2"}, {"leg3"}]
+    home = home_values(record)
+    assert np.allclose(
+        frames(with_ball_ends(record), ball_ended_values(record, home[None]))["platform"][1],
+        frames(record, home[None])["platform"][1],
+    )

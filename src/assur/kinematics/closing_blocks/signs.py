@@ -228,6 +228,7 @@ def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
     blocks = group.blocks if whole is not None else group.blocks[-1:]
     signs = [*_along_motions(group.whole, screws, parts=whole is None), whole]
     signs += [_sign(block, screws) for block in blocks]
+    signs.append(_along_slides(group.whole, screws))
     yield from (sign for sign in signs if sign is not None)
 
 
@@ -246,6 +247,19 @@ def _along_motions(block: ClosingBlock, screws: ScrewColumns, *, parts: bool) ->
         own = replace(block, spins=along.block.spins if along else ())
         for row in _directions(rates):
             yield _sign(own, screws, rates @ np.linalg.svd(row[None])[2][1:].T)
+
+
+def _along_slides(block: ClosingBlock, screws: ScrewColumns) -> BlockSign | None:
+    """A block's sign at rates of slides alone: of three cylindrical joints the whole determinant is a square of it."""
+    coordinates = screws.record.coordinates
+    sliding = [
+        k
+        for k, column in enumerate(block.columns)
+        if column < len(coordinates) and coordinates[column].kind == "length"
+    ]
+    return (
+        _sign(block, screws, np.eye(len(block.columns))[:, sliding]) if 1 < len(sliding) < len(block.columns) else None
+    )
 
 
 def _directions(rows: FloatArray) -> list[FloatArray]:
