@@ -171,9 +171,11 @@ def test_the_document_compiles_and_no_line_is_longer_than_its_column(name, tmp_p
 def test_the_page_on_the_seed_shows_formulas_of_its_document():
     page = (Path(__file__).parents[2] / "docs" / "derivations" / "zeng2019_derived.md").read_text(encoding="utf-8")
     shown = re.findall(r"\$\$\n(.*?)\n\$\$", page, re.DOTALL)
-    text = text_of("zeng2019").replace(" &=", " =")
+    printed_lines = {
+        line.strip().removesuffix("\\\\").strip() for line in text_of("zeng2019").replace(" &=", " =").splitlines()
+    }
     assert len(shown) == 10
-    assert [formula for formula in shown if formula not in text] == []
+    assert [formula for formula in shown if formula not in printed_lines] == []
 
 
 def test_the_letters_of_the_page_on_the_seed_are_those_of_the_paper():
