@@ -29,6 +29,8 @@ CLOSE = {
 }
 NUMBER = 8
 """Letters that the number of a formula takes."""
+WIDE = 3
+"""Columns of numbers for which a table has room in its usual size."""
 ROWS = 16
 """Branches in a table."""
 
@@ -205,7 +207,8 @@ def _table(own: PrintedProblem, example: PrintedExample) -> Iterator[str]:
     if len(example.branches) <= ROWS:
         shown = list(example.branches)
     heads = next((branch.values for branch in shown if branch.values), ())
-    yield r"\begin{center}\small"
+    small = r"\small" if len(heads) <= WIDE else r"\footnotesize\setlength{\tabcolsep}{2.5pt}"
+    yield rf"\begin{{center}}{small}"
     yield rf"\begin{{tabular}}{{c{'r' * max(len(heads), 1)}}}\hline"
     signs = ", ".join(own.written.printed.signs[root.symbol][0] for _, root in sorted(
         zip(own.order, own.written.solution.roots, strict=True), key=lambda pair: pair[0]))  # fmt: skip

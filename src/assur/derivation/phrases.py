@@ -102,16 +102,16 @@ def listed(names: Sequence[str], last: str = "and") -> str:
 def words(link: str) -> str:
     """A link's name in words, with its number apart.
 
-    >>> words("leg1.arm"), words("b1.arm"), words("link4a")
-    ('arm of limb 1', 'arm of limb b1', 'link 4a')
+    >>> words("leg1.arm"), words("b1.arm"), words("link4a"), words("leg2.rod_a")
+    ('arm of limb 1', 'arm of limb b1', 'link 4a', 'rod a of limb 2')
     """
-    limb = re.fullmatch(r"([A-Za-z]+)(\d+)\.([A-Za-z]+)(\d*)", link)
+    limb = re.fullmatch(r"([A-Za-z]+)(\d+)\.([A-Za-z]+)(?:_?(\d+\w?)|_(\w+))?", link)
     if limb:
-        name, number, part, further = limb.groups()
+        name, number, part, *further = limb.groups()
         of = f"limb {number}" if len(name) > 1 else f"limb {name}{number}"  # one of several kinds, as a1 and b1
-        return f"{part}{' ' + further if further else ''} of {of}"
+        return " ".join([part, *(own.replace("_", " ") for own in further if own), "of", of])
     plain = re.fullmatch(r"([A-Za-z]+)(\d+)(\w?)", link)
-    return f"{plain[1]} {plain[2]}{plain[3]}" if plain and len(plain[1]) > 1 else link
+    return f"{plain[1]} {plain[2]}{plain[3]}" if plain and len(plain[1]) > 1 else link.replace("_", " ")
 
 
 def direction(axis: Sequence[Any]) -> str:
