@@ -40,7 +40,7 @@ def derived_closed_form(record: MechanismRecord) -> str:
 
     >>> from assur.model.registry import load_record
     >>> derived_closed_form(load_record("fivebar")).splitlines()[0]
-    '\"\"\"Closed form of fivebar, derived from its joint graph: link4 and link5.'
+    '\"\"\"Closed form of fivebar, derived from its joint graph: rod1 and rod2.\"\"\"'
     """
     name = _name(record)
     digest, _, body = (own_content(KIND, name, LARGEST) or b"").partition(b"\n")

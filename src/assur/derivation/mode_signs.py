@@ -227,7 +227,7 @@ def summands(columns: NDArray[np.bool_], total: NDArray[np.bool_]) -> list[int] 
     """Columns (N, k) whose sum modulo 2 is the total (N,), the first ones if there is a choice; None: there are none.
 
     >>> summands(np.array([[True, False, True], [True, True, False]]), np.array([False, True]))
-    [0, 2]
+    [1]
     """
     basis: list[tuple[NDArray[np.bool_], set[int]]] = []
 
