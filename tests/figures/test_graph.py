@@ -80,7 +80,7 @@ def tangle():
 
 
 CASES = {"hexapod": hexapod, "hybrid": hybrid, "tangle": tangle}
-CATALOGUE = (*assur.names(), *topology_names())
+CATALOGUE = sorted({*assur.names(), *topology_names()})
 
 
 def drawn(name):
