@@ -13,6 +13,7 @@ from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
+from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
@@ -34,6 +35,7 @@ from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import (
     CountedSolutions,
     DerivationAnswer,
+    DerivedCase,
     DerivedChoice,
     DerivedFactor,
     DerivedProblem,
@@ -178,9 +180,19 @@ def _with_proof(record: Mechanism, part: DerivedProblem) -> DerivedProblem:
     if part.status != "derived":
         return part
     try:
-        return replace(part, proof=proof(analytic_solution(record, NAMES[part.problem])))
+        solution = analytic_solution(record, NAMES[part.problem])
+        part = replace(part, closed=tuple(_closed(solution)))
+        return replace(part, proof=proof(solution))
     except NoIdentityError as error:
         return replace(part, not_proved=str(error))
+
+
+def _closed(solution: AnalyticSolution) -> Iterator[DerivedCase]:
+    """What holds where conditions do not."""
+    for own in closed_conditions(solution):
+        texts = (tuple(map(str, formulas)) for formulas in (own.vanish, own.formulas))
+        vanish, formulas = texts
+        yield DerivedCase(str(own.condition), vanish, own.outcome, own.freedoms, own.links, formulas)
 
 
 def _meanings(reach: ReachMeanings, part: SolvedSet) -> Iterator[tuple[str, str]]:
@@ -231,6 +243,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         if part.sets or part.reasons:
             yield ""
         yield from _end(part) if derived else _resistance(part)
+        yield from _cases(part)
         yield from _counted(part)
         yield ""
     if data.factors:
@@ -258,6 +271,19 @@ def _end(part: DerivedProblem) -> Iterator[RenderableType]:
         yield "every step is an identity, in the data (--json): assur verify checks them"
     if part.proved:
         yield f"proved by factors modulo primes: {part.proved}"
+
+
+def _cases(part: DerivedProblem) -> Iterator[RenderableType]:
+    """What holds where a condition does not."""
+    for own in () if part.closed is ABSENT else part.closed:
+        where = " and ".join(f"{text} = 0" for text in own.vanish)
+        said = {
+            "self-motion": f"a self-motion of {own.freedoms}: {' and '.join(own.links)} move, what is given stands",
+            "roots": "solved alike, with no more roots",
+            "no solution": "no solution",
+            "open": "open: not derived",
+        }[own.outcome]
+        yield Verbatim(f"where {own.condition} = 0{f', as {where}' if where else ''}: {said}")
 
 
 def _resistance(part: DerivedProblem) -> Iterator[str]:

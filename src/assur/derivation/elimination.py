@@ -94,6 +94,22 @@ def solution(
     raise NotDerivedError(f"{names} belong together: {len(equations)} linear equations")
 
 
+def meeting(
+    directions: Sequence[UnknownDirection], equations: Sequence[Form], witness: ModularWitness
+) -> tuple[dict[sympy.Symbol, Form], list[Form], UnknownDirection]:
+    """What equations and quadrics leave of a set: all unknowns but those of one direction, lines for these, and it.
+
+    Errors:
+        NotDerivedError: of no direction do the others follow linearly.
+    """
+    for base in directions:
+        others = [unknown for direction in directions if direction is not base for unknown in direction.unknowns]
+        if rank(equations, others, witness) == len(others):
+            own = _Set(0, base, directions, equations, witness, set())
+            return (*own.meeting(), base)
+    raise NotDerivedError("of no direction do the others follow")
+
+
 class _Set:
     def __init__(
         self,
@@ -121,12 +137,21 @@ class _Set:
             return form
         return {**form, ONE: self._named(next(self.letters), known)}
 
-    def solved(self) -> SolvedSet:
+    def meeting(self) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
+        """The unknowns of the others, and lines for those of the base, those first that the equations leave.
+
+        A line without an unknown says that there is no solution.
+        """
         unknowns = [unknown for direction in self.others for unknown in direction.unknowns]
         values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
-        given = len(lines)
         curved = [direction for direction in self.others if direction.kind != "stroke"]
         lines += [line for direction in curved if (line := self._line(direction, values)) is not None]
+        return values, lines
+
+    def solved(self) -> SolvedSet:
+        unknowns = [unknown for direction in self.others for unknown in direction.unknowns]
+        given = len(self.equations) - len(unknowns)
+        values, lines = self.meeting()
         lines = self._independent(lines)
         {"circle": self._circle, "rod": self._sphere, "stroke": self._vector}[self.base.kind](lines)
         for unknown in unknowns:
@@ -135,7 +160,7 @@ class _Set:
             (self.base, *self.others),
             tuple(self.equations),
             tuple(lines[given:]),
-            tuple(self.conditions),
+            tuple(dict.fromkeys(self.conditions)),
             tuple(self.definitions),
             tuple(self.roots),
             tuple(self.shared),

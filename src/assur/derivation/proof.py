@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from assur.derivation.elimination import SolvedSet
-from assur.derivation.identities import LinearSpan, Multipliers, set_identities, unit
+from assur.derivation.identities import LinearSpan, Multipliers, NoIdentityError, set_identities, unit
 from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import Orientation
@@ -45,6 +45,9 @@ class _Proof:
         self.fixed = [length for length in self.loops.lengths.values() if length not in self.loops.strokes]
 
     def whole(self) -> DerivationProof:
+        if self.loops.relations:
+            names = ", ".join(str(own.symbol) for own in self.loops.relations)
+            raise NoIdentityError(f"the formulas hold for dimensions with a relation alone, that of {names}")
         sets = [self._set(k, part) for k, part in enumerate(self.solution.sets)]
         lengths = self._lengths()
         loops = {name: str(value_of(form)) for name, form in zip(self.names, self.loops.forms, strict=True)}

@@ -96,6 +96,10 @@ class AnalyticSolution:
             witness.define(own.symbol, own.formula)
         return witness
 
+    def witness_before(self, place: int, seed: int, witness: ModularWitness | None = None) -> ModularWitness:
+        """A witness of its own, or one that knows something, with everything that the sets before one define."""
+        return self._replayed(seed, self.sets[:place], (), witness)
+
     def _replayed(
         self, seed: int, sets: Sequence[SolvedSet], signs: Sequence[int], witness: ModularWitness | None = None
     ) -> ModularWitness:

@@ -144,6 +144,22 @@ class CountedSolutions:
 
 
 @dataclass(frozen=True)
+class DerivedCase:
+    """What holds where a condition does not: where its factors `vanish` together, all else being general.
+
+    `outcome` is "self-motion", of `freedoms`, where the first of `links` is free and others follow by `formulas`;
+    "roots", at most as many as elsewhere; "no solution"; or "open".
+    """
+
+    condition: str
+    vanish: tuple[str, ...]
+    outcome: str
+    freedoms: int
+    links: tuple[str, ...]
+    formulas: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class DerivedProblem:
     """The direct or the inverse problem.
 
@@ -151,7 +167,8 @@ class DerivedProblem:
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
     parallelograms that stay such; `lengths` are found after the sets. `proof` is there where it is asked for, or
     `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
-    that is not solved; `count` the number of solutions, found without any of the elimination.
+    that is not solved; `count` the number of solutions, found without any of the elimination;
+    `closed` what holds where conditions do not, derived modulo a prime.
     """
 
     problem: str
@@ -170,6 +187,7 @@ class DerivedProblem:
     square_roots: Literal["yes", "no", "open"] = "open"
     resists: ResistingSet | Absent = ABSENT
     count: CountedSolutions | Absent = ABSENT
+    closed: tuple[DerivedCase, ...] | Absent = ABSENT
 
 
 @dataclass(frozen=True)
