@@ -20,7 +20,7 @@ from assur.derivation.orientations import orientations
 from assur.derivation.symbols import GivenSymbols
 from assur.derivation.witness import ModularWitness
 from assur.kinematics.contract.check import problems
-from assur.kinematics.contract.extent import AT_LOAD
+from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.modes import Problem
 from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
@@ -87,7 +87,7 @@ def _that_agrees(record: MechanismRecord) -> str:
     text = derivation.closed_form()
     plain = record.without_closed_form
     form = names_of(text, Path(CLOSED_FORM))["CLOSED_FORM"]
-    against, _ = problems(plain.with_closed_form(form, text), AT_LOAD)
+    against, _ = problems(plain.with_closed_form(form, text), IN_FULL)
     if against:
         raise NotDerivedError(f"the joint graph does not agree with what was derived: {against[0].given}")
     return text

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from keyword import iskeyword
 from typing import Any
 
-from sympy import expand_trig
+from sympy import Add, Expr, Mul, expand_trig, factor
 from sympy.printing.pycode import PythonCodePrinter
 
 from assur.derivation.definitions import Definition
@@ -33,8 +33,44 @@ class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no ty
         self._parameters = {*parameters}
 
     def doprint(self, expr: Any, assign_to: Any = None) -> str:
-        """The text of a formula; an angle is cosine and sine, so that a sum of angles is written out."""
-        return str(super().doprint(expand_trig(expr), assign_to))
+        """The text of a formula; an angle is cosine and sine, so that a sum of angles is written out.
+
+        What is made of dimensions alone stands together and first: numbers, worked out once for arrays of all else.
+        """
+        return str(super().doprint(self._grouped(expand_trig(expr)), assign_to))
+
+    def _is_fixed(self, formula: Any) -> bool:
+        return all(symbol.name in self._parameters for symbol in formula.free_symbols)
+
+    def _grouped(self, formula: Any) -> Any:
+        """Sums whose terms that have the same factors beside dimensions are one term."""
+        if not isinstance(formula, Expr) or formula.is_Atom or self._is_fixed(formula):
+            return formula
+        parts = [self._grouped(part) for part in formula.args]
+        if not formula.is_Add:
+            return formula.func(*parts)
+        groups: dict[Any, list[Any]] = {}
+        for part in parts:
+            fixed, rest = part.as_independent(*self._varying(part), as_Add=False)
+            groups.setdefault(rest, []).append(fixed)
+        sums = {rest: own[0] if len(own) == 1 else factor(Add(*own)) for rest, own in groups.items()}
+        return Add(*(Mul(own, rest) for rest, own in sums.items()))
+
+    def _varying(self, formula: Any) -> list[Any]:
+        return [symbol for symbol in formula.free_symbols if symbol.name not in self._parameters]
+
+    def _as_ordered_terms(self, expr: Any, order: Any = None) -> list[Any]:
+        terms = super()._as_ordered_terms(expr, order)
+        return sorted(terms, key=lambda term: not self._is_fixed(term))
+
+    def _print_Mul(self, expr: Any) -> str:
+        fixed = [part for part in expr.args if self._is_fixed(part)]
+        rest = [part for part in expr.args if not self._is_fixed(part)]
+        if len(fixed) < 2 or not rest:
+            return str(super()._print_Mul(expr))
+        ahead = super()._print_Mul(Mul(*fixed, evaluate=False))
+        behind = super()._print_Mul(Mul(*rest, evaluate=False)) if len(rest) > 1 else self.parenthesize(rest[0], 50)
+        return f"({ahead})*{behind}" if "/" in ahead or "-" in ahead[1:] else f"{ahead}*{behind}"
 
     def _print_Symbol(self, expr: Any) -> str:
         return f"p.{expr.name}" if expr.name in self._parameters else str(expr.name)

@@ -25,6 +25,7 @@ from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.model.closed_form import ClosedForm
 from assur.model.kernel_dimensions import kernel_dimensions
+from assur.model.kernels.faults import FormFault
 from assur.model.kernels.reading import names_of
 from assur.model.pose import LENGTHS
 from assur.numerics.number_types import Floats
@@ -87,7 +88,10 @@ class _Matching:
         self.divisors = {f"divisor{k}": own for k, own in enumerate(plain.direct_divisors)}
         values = {name: plain.of_direct(own) for name, own in self.divisors.items()}
         self.formulas = ClosedFormFormulas(direct, inverse, self.own, values)
-        names = names_of(ClosedFormText(self.formulas).text(), Path("closed_form.py"))
+        try:
+            names = names_of(ClosedFormText(self.formulas).text(), Path("closed_form.py"))
+        except FormFault as fault:
+            raise NotDerivedError(f"the formulas are too long for a closed form that is read: {fault}") from fault
         self.form: ClosedForm = names["CLOSED_FORM"]
 
     def signs(self) -> MatchedSigns:
