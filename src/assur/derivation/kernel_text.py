@@ -66,7 +66,8 @@ class KernelPrinter(PythonCodePrinter):  # type: ignore[misc]  # SymPy has no ty
     def _print_Mul(self, expr: Any) -> str:
         fixed = [part for part in expr.args if self._is_fixed(part)]
         rest = [part for part in expr.args if not self._is_fixed(part)]
-        if len(fixed) < 2 or not rest:
+        under = all(part.is_Pow and part.exp.is_negative for part in rest)
+        if len(fixed) < 2 or under:
             return str(super()._print_Mul(expr))
         ahead = super()._print_Mul(Mul(*fixed, evaluate=False))
         behind = super()._print_Mul(Mul(*rest, evaluate=False)) if len(rest) > 1 else self.parenthesize(rest[0], 50)
