@@ -40,7 +40,7 @@ class Reader:
                 total = np.cross(total, self.power())
             elif self.take(r"\\cdot"):
                 total = np.dot(total, self.power())
-            elif re.match(r"(?:\s|\\,)*(?:$|[-+)}|])", self.left):
+            elif re.match(r"(?:\s|\\,)*(?:$|[-+)}|,])", self.left):
                 return total
             else:
                 total = total * self.power()
@@ -61,9 +61,11 @@ class Reader:
         if self.take(r"\\sqrt"):
             return math.sqrt(self.group())
         if match := self.take(r"[(|]"):
-            inner = self.sum()
+            parts = [self.sum()]
+            while self.take(","):
+                parts.append(self.sum())
             assert self.take(r"[)|]")
-            return inner
+            return parts[0] if len(parts) == 1 else np.array(parts)
         if match := self.take(r"\\(cos|sin)(?:\^\{(\d+)\})?\s*"):
             return self.letter()[match[1] == "sin"] ** int(match[2] or 1)
         return self.letter()
