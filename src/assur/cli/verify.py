@@ -95,9 +95,9 @@ def _derivation(path: Path, content: bytes, name: str | None, start: float) -> O
         VerifiedProblem(own.problem, own.branches, own.conditions, own.assumed, own.closed) for own in proved
     )
     answer = VerifiedDerivation(True, whose, problems, without, time.perf_counter() - start)
-    shown = [heading(f"verified: {path}"), *map(_proved, problems), *(f"{own}: not derived" for own in without)]
+    shown = [heading(f"verified: {path}"), *map(_proved, problems), *(f"{own}: nothing is proved" for own in without)]
     shown.append(f"identities checked exactly, with a joint graph of its own, in {answer.seconds:.2g} s")
-    return Outcome(answer, lambda: shown, exit_codes.FINE)
+    return Outcome(answer, lambda: shown, exit_codes.UNDECIDED if without else exit_codes.FINE)
 
 
 def _proved(own: VerifiedProblem) -> str:

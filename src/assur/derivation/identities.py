@@ -127,7 +127,9 @@ def unit(direction: UnknownDirection) -> str:
 def set_identities(
     part: SolvedSet, loops: LinearSpan, vectors: Sequence[StrokeVector], witness: ModularWitness
 ) -> SetIdentities:
-    """The identities of a set that square roots solve. Errors: NoIdentityError."""
+    """The identities of a set that square roots solve. Errors: NoIdentityError, of a set with a polynomial too."""
+    if part.eliminant is not None:
+        raise NoIdentityError(f"identities are written of square roots alone, and {part.name} have a polynomial")
     return _SetOfRoots(part, loops, vectors, witness).identities()
 
 

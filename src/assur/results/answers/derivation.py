@@ -225,10 +225,10 @@ class VerifiedProblem:
 
 @dataclass(frozen=True)
 class VerifiedDerivation(Answer):
-    """A derivation that holds; `not_derived` are problems of which it says nothing."""
+    """A derivation that holds; `not_proved` are problems of which it proves nothing."""
 
     verified: Literal[True]
     mechanism: str
     problems: tuple[VerifiedProblem, ...]
-    not_derived: tuple[str, ...]
+    not_proved: tuple[str, ...]
     seconds: float

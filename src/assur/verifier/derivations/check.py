@@ -57,14 +57,14 @@ def is_derivation(data: bytes) -> bool:
 
 
 def problems_of(data: bytes) -> tuple[str, tuple[str, ...]]:
-    """The name of a derivation's mechanism, and the problems that it does not solve. Errors: MalformedError."""
+    """The name of a derivation's mechanism, and the problems of which it proves nothing. Errors: MalformedError."""
     document = _read(data)
-    without = (own["problem"] for own in document["problems"] if own["status"] != "derived")
+    without = (own["problem"] for own in document["problems"] if "proof" not in own)
     return printable(document["mechanism"]), tuple(map(printable, without))
 
 
 def verify_derivation(data: bytes, text: str) -> list[ProvedProblem]:
-    """Check a derivation against a mechanism's file: what is proved of each problem that it solves.
+    """Check a derivation against a mechanism's file: what is proved of each problem that has identities.
 
     Errors:
         MalformedError: it is no derivation with identities.
@@ -73,7 +73,7 @@ def verify_derivation(data: bytes, text: str) -> list[ProvedProblem]:
     document = _read(data)
     try:
         own = mechanism(text)
-        solved = [problem for problem in document["problems"] if problem["status"] == "derived"]
+        solved = [problem for problem in document["problems"] if "proof" in problem]
         return [_ProblemCheck(own, problem).findings() for problem in solved]
     except (ValueError, KeyError, TypeError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
         raise RefusedError(f"it does not fit the mechanism file: {type(error).__name__}: {error}") from error
@@ -85,9 +85,7 @@ def _read(data: bytes) -> dict[str, Any]:
         if document["format"] != FORMAT or document["version"] != VERSION:
             raise MalformedError(f"its format is not {FORMAT!r}, version {VERSION}")
         printable(document["mechanism"])
-        if not any(own["status"] == "derived" for own in document["problems"]):
-            raise MalformedError("it derives nothing")
-        if not all("proof" in own for own in document["problems"] if own["status"] == "derived"):
+        if not any("proof" in own for own in document["problems"]):
             raise MalformedError("it has no identities; `assur derive --prove --json` writes them")
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise MalformedError(f"no derivation: {type(error).__name__}: {error}") from error
