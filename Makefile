@@ -60,6 +60,7 @@ bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs
 	if command -v chromium >/dev/null && $(BIN)/python -c 'import playwright' 2>/dev/null; then \
 	    $(BIN)/python bench/page.py; fi
 	$(BIN)/python bench/others.py
+	$(BIN)/python bench/derived.py
 
 format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
 	$(BIN)/ruff check --fix .
