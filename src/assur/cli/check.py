@@ -124,6 +124,10 @@ def _next(mechanism: str, record: MechanismRecord, faults: Iterable[Problem]) ->
 def _derivable(mechanism: str, record: MechanismRecord, faults: Iterable[Problem]) -> Iterator[str]:
     """How a closed form may be had, where a glance at the joint graph does not say that it may not."""
     if record.closed_form is None and not record.closed_form_not_run and not [*faults]:
+        from assur.kinematics.loops.loops import turns_on_circles
+
+        if not turns_on_circles(record):  # known at once, before algebra is loaded
+            return
         from assur.derivation.kept import may_be_derived
 
         if may_be_derived(record):
