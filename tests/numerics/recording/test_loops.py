@@ -146,8 +146,8 @@ def test_machine_code_is_kept_in_the_chosen_folder(tmp_path, monkeypatch):
     x = recorder.varying("x")
     run = compiled(recorder.tape({"y": x * x + 12345.678}))
     assert run([[2.0]], [])["y"][0] == 4 + 12345.678
-    kept = [path.suffix for path in tmp_path.rglob("*") if path.is_file()]
-    assert sorted(set(kept)) == [".nbc", ".nbi", ".py"]
+    kept = {path.suffix for path in tmp_path.rglob("*") if path.is_file()}
+    assert kept - {".pyc"} == {".nbc", ".nbi", ".py"}  # bytecode too where nothing puts it elsewhere
 
 
 @pytest.mark.parametrize("count", [1, 255, 256, 1000])
