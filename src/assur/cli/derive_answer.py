@@ -20,12 +20,13 @@ from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.identities import NoIdentityError
 from assur.derivation.kept import derived_closed_form
 from assur.derivation.linear import value_of
-from assur.derivation.not_derived import NotDerivedError, ResistingSetError
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
 from assur.derivation.proof import proof
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reasons import sentences
+from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.solution_count import SECONDS, solution_count
 from assur.errors import AssurError, UsageError

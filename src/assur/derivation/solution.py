@@ -20,8 +20,9 @@ from assur.derivation.elimination import Root, SolvedSet, solution
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, UnknownDirection, loop_equations
-from assur.derivation.not_derived import NotDerivedError, ResistingSetError
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, orientations
+from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.sets import next_set
 from assur.derivation.strokes import StrokeVector, stroke_vectors, with_strokes
 from assur.derivation.symbols import GivenSymbols
