@@ -21,7 +21,7 @@ def test_it_prints_reasons_before_equations_and_the_sets_in_their_order(capsys):
 
 def test_what_resists_is_named_with_exit_code_5_and_nothing_is_written(tmp_path, capsys):
     target = tmp_path / "closed_form.py"
-    assert main(["derive", "h4_robot", "-o", str(target), "--json"]) == 5
+    assert main(["derive", "gough_stewart", "-o", str(target), "--json"]) == 5
     answer = json.loads(capsys.readouterr().out)
     direct, inverse = answer["problems"]
     assert (direct["status"], inverse["status"]) == ("not_derived", "derived")

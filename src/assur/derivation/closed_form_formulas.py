@@ -252,7 +252,10 @@ class ClosedFormFormulas:
     def inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
         """Symbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
         pairs = zip(self.printed_inputs, self.input_pairs, strict=True)
+        posed = (name for name in self.direct.symbols.record.platform.pose if name in ANGLES)
         values: dict[sympy.Symbol, sympy.Expr] = {}
+        for name in posed:
+            values |= dict(zip(self._turned_by(name), circle_of(name), strict=True))
         for printed, own in pairs:
             values |= dict(zip(printed, own, strict=True)) if isinstance(printed, tuple) else {printed: own}
         for name in self.direct.symbols.record.platform.pose:

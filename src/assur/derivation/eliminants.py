@@ -49,18 +49,21 @@ def eliminated(
     witness: ModularWitness,
     taken: set[str],
     platform: str = "",
+    carrier: UnknownDirection | None = None,
 ) -> SolvedSet:
     """A set whose directions belong together, by its eliminant; of equal degrees that in the platform's angle.
+
+    A circle by which axes of the others turn is a coefficient of the equations; it is the one that is taken as known.
 
     Errors:
         NotDerivedError: none of its circles leaves linear equations and one more.
     """
     names = FreeNames(taken)
-    known, equations = _named(equations, witness, names)
+    known, equations = _named(equations, witness, names, () if carrier is None else carrier.unknowns)
     choices: list[tuple[tuple[int, bool, int], _Leftover, AngleEliminant]] = []
     why = ["there is no circle among them"]
     for base in sorted(directions, key=lambda own: platform not in own.links):
-        if base.kind == "circle":
+        if base.kind == "circle" and carrier in (None, base):
             try:
                 left = _leftover(base, directions, equations, witness)
                 rough = _shaped(_eliminant(left, FreeNames(set(taken))), witness)
@@ -95,12 +98,15 @@ def eliminated(
 
 
 def _named(
-    equations: Sequence[Form], witness: ModularWitness, names: FreeNames
+    equations: Sequence[Form], witness: ModularWitness, names: FreeNames, turning: tuple[sympy.Symbol, ...]
 ) -> tuple[tuple[Definition, ...], list[Form]]:
-    """Sums that are known in each equation under names, the same of the same sum."""
+    """Sums that are known in each equation under names, the same of the same sum; beside cosine and sine that turn."""
     known = dict[sympy.Expr, Definition]()
 
     def name(factor: sympy.Expr) -> sympy.Expr:
+        if factor.free_symbols & {*turning}:
+            terms = trigonometric_terms(factor, turning, witness)
+            return sum((name(part) * turning[0] ** i * turning[1] ** j for (i, j), part in terms.items()), ZERO)
         if not factor.has(sympy.Add):
             return factor
         short = sympy.factor_terms(factor)
@@ -142,26 +148,30 @@ def _leftover(
     unknowns = [unknown for direction in others for unknown in direction.unknowns]
     conditions: list[sympy.Expr] = []
     kept = _kept(others, equations, witness)
-    values, rest = solved(equations, [unknown for unknown in unknowns if unknown not in kept], witness, conditions)
-    inner, alone = solved(rest, kept, witness, conditions)
+    apart = [unknown for unknown in unknowns if unknown not in kept]
+    values, rest = solved(equations, apart, witness, conditions, base.unknowns)
+    inner, given = solved(rest, kept, witness, conditions, base.unknowns)
     values = {unknown: replaced(form, inner, witness) for unknown, form in values.items()} | inner
-    if alone:
+    if not all(form.keys() & {*unknowns} for form in given):
         raise NotDerivedError(f"{base.name} has linear equations of its own")
     left = tuple(unknown for unknown in unknowns if unknown not in values)
     forms = {unknown: values.get(unknown, {unknown: ONE}) for unknown in unknowns}
     curved_ones = [direction for direction in others if direction.kind != "stroke"]
     quadrics = [_quadric(direction, forms, base, left, witness) for direction in curved_ones]
     monomials = sorted({key for form in quadrics for key in form if key not in left and key != ONE}, key=str)
-    if any(form[key].free_symbols & {*base.unknowns} for form in quadrics for key in monomials if key in form):
+    turning = any(form[key].free_symbols & {*base.unknowns} for form in quadrics for key in monomials if key in form)
+    if turning and len(quadrics) > 1:
         raise NotDerivedError(f"with {base.name} taken as known, quadratic parts turn with it")
-    curved, plain = solved(quadrics, monomials, witness, conditions)
-    lines = sorted((_tidied(divided(line), base, witness) for line in plain), key=_length)
+    curved, plain = ({}, quadrics) if not monomials else solved(quadrics, monomials, witness, conditions)
+    if turning:
+        curved, plain = dict.fromkeys(monomials[:1], quadrics[0]), []
+    lines = sorted((_tidied(_divided(line, base), base, witness) for line in (*given, *plain)), key=_length)
     if len(lines) + len(curved) != len(left) + 1 or len(curved) > 1:
         raise NotDerivedError(
             f"with {base.name} taken as known, {len(lines)} linear equations and {len(curved)} quadrics are left "
             f"for {len(left)} unknowns"
         )
-    quadric = divided(min(quadrics, key=_length)) if curved else {}
+    quadric = _divided(min(quadrics, key=_length), base) if curved else {}
     return _Leftover(base, left, tuple(lines), quadric, values, tuple(conditions))
 
 
@@ -206,6 +216,16 @@ def _tidied(form: Form, base: UnknownDirection, witness: ModularWitness) -> Form
     """Coefficients modulo the circle of the base, without those that vanish."""
     plain = {key: reduced(tidy(part), base.unknowns, witness) for key, part in form.items()}
     return {key: part for key, part in plain.items() if part != 0}
+
+
+def _divided(form: Form, base: UnknownDirection) -> Form:
+    """A form without the factor that all of it shares, but for what of that turns with the base: it may vanish."""
+    plain = divided(form)
+    key = next(iter(form))
+    shared, _ = sympy.fraction(tidy(form[key] / plain[key]))
+    factors = (factor**power for factor, power in sympy.factor_list(shared)[1])
+    turning = sympy.prod([factor for factor in factors if factor.free_symbols & {*base.unknowns}])
+    return plain if turning == 1 else {own: tidy(part * turning) for own, part in plain.items()}
 
 
 def _length(form: Form) -> tuple[int, int]:

@@ -8,7 +8,7 @@ an equation share is divided out and kept as a condition: where it vanishes, the
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy
 
@@ -280,6 +280,13 @@ class _Set:
         start = add(scaled(cross(m, w), h), scaled(cross(w, n), k))
         for unknown, part, along in zip(own, start, w, strict=True):
             self._define(unknown, (part + along * root) / square)
+
+
+def with_known(part: SolvedSet, known: tuple[Definition, ...]) -> SolvedSet:
+    """A set with definitions before its own, in which nothing is unknown."""
+    own = part.eliminant
+    eliminant = own if own is None else replace(own, known=(*known, *own.known))
+    return replace(part, definitions=(*known, *part.definitions), eliminant=eliminant)
 
 
 def choices(parts: Sequence[SolvedSet]) -> Iterator[Root]:

@@ -143,3 +143,12 @@ def point_on(symbols: GivenSymbols, joint: Joint, link: str) -> Vector:
     """A joint's point, fixed in one of its links."""
     own = symbols.geometry.joints[joint.name]
     return own.at if joint.parent == link else own.child_at
+
+
+def slides(symbols: GivenSymbols, joint: Joint, link: str) -> Iterator[Vector]:
+    """Directions in which a joint that does not turn slides, fixed in one of its links."""
+    own = symbols.geometry.joints[joint.name]
+    for step, _ in joint.type.places:
+        if step.kind == "slide" and not joint.type.turns:
+            axis = own.axes[step.direction]
+            yield axis if joint.parent == link else apply(transposed(own.turn), axis)

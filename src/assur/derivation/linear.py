@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import sympy
 
@@ -68,10 +68,12 @@ def solved(
     unknowns: Sequence[sympy.Symbol],
     witness: ModularWitness,
     conditions: list[sympy.Expr] | None = None,
+    turning: Collection[sympy.Symbol] = (),
 ) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
     """Some of the unknowns as forms of what is left, and the equations that are left, in which they do not occur.
 
-    What is divided by and may vanish is added to the conditions.
+    What is divided by and may vanish is added to the conditions. Nothing is divided by what has a symbol of `turning`
+    in it; equations are left then in which unknowns occur.
 
     >>> x, y = sympy.symbols("x y")
     >>> solved([{x: ONE, y: -ONE}, {x: ONE, y: ONE, ONE: -2 * ONE}], [x], ModularWitness())
@@ -80,7 +82,12 @@ def solved(
     left = [form for form in forms if form]
     values: dict[sympy.Symbol, Form] = {}
     while True:
-        pivots = [(_cost(form, key, witness), k, key) for k, form in enumerate(left) for key in unknowns if key in form]
+        pivots = [
+            (_cost(form, key, witness), k, key)
+            for k, form in enumerate(left)
+            for key in unknowns
+            if key in form and not form[key].free_symbols & {*turning}
+        ]
         if not pivots:
             return values, left
         _, k, key = min(pivots, key=lambda pivot: pivot[:1])

@@ -1,5 +1,8 @@
 """Loop equations: linear in the unknowns of links that turn, and in lengths along fixed directions.
 
+Axes that links share which turn about different directions are one: three equations more. A link on an axis that turns
+itself is turned by two circles; the one that carries the axis is a coefficient then.
+
 A loop is a sum of vectors from joint to joint, each fixed in a link. One in a link that turns about u is
 w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction. What is not linear belongs to
 one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
@@ -7,14 +10,16 @@ one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import sympy
 
 from assur.derivation.definitions import Definition
 from assur.derivation.dimension_relations import dimension_relations
+from assur.derivation.hinges import Hinge
 from assur.derivation.linear import Form, form_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
@@ -23,7 +28,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
 from assur.model.pose import LENGTHS
-from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract
+from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract, transposed
 
 
 @dataclass(frozen=True)
@@ -58,12 +63,13 @@ class LoopEquations:
     """What vanishes.
 
     Attributes:
-        forms: linear equations, each zero.
+        forms: linear equations, each zero; the first `axes` of them are those of axes that links share.
         directions: unknowns of links that turn, and of rods.
         lengths: index in the joint values -> symbol of a length that is sought.
         strokes: such a length along a direction that turns -> the circle by which it turns. It is a coefficient.
         point: the platform's point as linear forms.
         relations: dimensions that follow from others, without which no loop closes.
+        carriers: circles of links that carry axes of other links which turn. They are coefficients.
     """
 
     forms: tuple[Form, ...]
@@ -72,6 +78,8 @@ class LoopEquations:
     point: tuple[Form, Form, Form]
     strokes: Mapping[sympy.Symbol, UnknownDirection] = field(default_factory=dict)
     relations: tuple[Definition, ...] = ()
+    carriers: tuple[UnknownDirection, ...] = ()
+    axes: int = 0
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -101,26 +109,108 @@ class _Loops:
             reached = add(self._place(joint.parent, start, point), self._slid(joint))
             gaps.append(subtract(reached, self._place(joint.child, end, point)))
         platform = self._place(self.record.platform.link, self.symbols.geometry.platform, point)
+        shared = [part for turn in self.placed.hinges for part in self._apart(turn)]
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
-        used = {symbol for row in (*rows, *platform) for symbol in sympy.sympify(row).free_symbols}
+        used = {symbol for row in (*shared, *rows, *platform) for symbol in sympy.sympify(row).free_symbols}
         directions = [
             direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
         ]
-        fixed = [length for length in self.lengths.values() if length not in self.strokes]
-        unknowns = [*fixed, *(unknown for direction in directions for unknown in direction.unknowns)]
-        forms = [form_of(row, unknowns, self.symbols.witness) for row in rows]
-        relations = dimension_relations(self.symbols, forms, unknowns)
+        forms = [self._form(row, directions) for row in rows]
+        unknowns = [length for length in self.lengths.values() if length not in self.strokes]
+        unknowns += [unknown for direction in directions for unknown in direction.unknowns]
+        relations = () if self._seconds else dimension_relations(self.symbols, forms, unknowns)
         if relations:
-            forms = [form_of(row, unknowns, self.symbols.witness) for row in rows]
-        x, y, z = (form_of(part, unknowns, self.symbols.witness) for part in platform)
-        own = tuple(form for form in forms if form)
-        return LoopEquations(own, tuple(directions), dict(self.lengths), (x, y, z), dict(self.strokes), relations)
+            forms = [self._form(row, directions) for row in rows]
+        x, y, z = (self._form(part, directions) for part in platform)
+        axes = [form for row in shared if (form := self._form(row, directions))]
+        own = [form for form in forms if form]
+        carriers = tuple(own for own in directions if own in self._carriers)
+        return LoopEquations(
+            (*axes, *own),
+            tuple(directions),
+            dict(self.lengths),
+            (x, y, z),
+            dict(self.strokes),
+            relations,
+            carriers,
+            len(axes),
+        )
+
+    def _form(self, row: sympy.Expr, directions: Sequence[UnknownDirection]) -> Form:
+        """Linear in all unknowns, or where links are turned by two circles in those of the second ones."""
+        unknowns = [length for length in self.lengths.values() if length not in self.strokes]
+        symbols = sympy.sympify(row).free_symbols
+        twice = any(symbols & {*own.unknowns} for own in self._seconds)
+        kept = [own for own in directions if not (twice and own in self._carriers)]
+        unknowns += [unknown for direction in kept for unknown in direction.unknowns]
+        return form_of(row, unknowns, self.symbols.witness)
+
+    @cached_property
+    def _seconds(self) -> list[UnknownDirection]:
+        numbers = {own.second for own in self.placed.links.values() if own.second is not None}
+        return [self.circles[number] for number in numbers]
+
+    @cached_property
+    def _carriers(self) -> list[UnknownDirection]:
+        numbers = {own.circle for own in self.placed.links.values() if own.second is not None}
+        return [self.circles[number] for number in numbers if number is not None]
+
+    def _apart(self, turn: Hinge) -> Vector:
+        """How far an axis w in two links is from being one, along what turns one of them.
+
+        That one turns about v: it has v.w, and w - v (v.w) and v x w turn by its angle.
+        """
+        ends = [(link, self._axis_in(link, turn)) for link in (turn.parent, turn.child)]
+        first, second = (self.placed.links[link] for link, _ in ends)
+        if any(own.rod is not None for own in (first, second)):
+            return (0, 0, 0)
+        axes = [self.carried(link, axis) for link, axis in ends]
+        if not any(self._tidied(subtract(*axes))):
+            return (0, 0, 0)
+        turning = [k for k, own in enumerate((first, second)) if own.circle is not None and own.second is None]
+        if not turning:
+            return self._tidied(subtract(*axes))
+        k = max(turning, key=lambda k: len({symbol for part in axes[k] for symbol in sympy.sympify(part).free_symbols}))
+        (link, axis), own, other = ends[k], (first, second)[k], axes[1 - k]
+        if own.axis is None or own.circle is None:
+            return (0, 0, 0)
+        share = sympy.simplify(dot(self._within(link, own), axis))
+        start = self._short(own.axis, subtract(apply(own.constant, axis), scaled(own.axis, share)))
+        cosine, sine = self.circles[own.circle].unknowns
+        size = 1 - share**2
+        return (
+            dot(own.axis, other) - share,
+            dot(start, other) - size * cosine,
+            dot(self._short(own.axis, cross(own.axis, start)), other) - size * sine,
+        )
+
+    def _within(self, link: str, own: Orientation) -> Vector:
+        """The axis about which a link turns, in its own frame."""
+        axis = own.axis or (0, 0, 0)
+        for turn in self.placed.hinges:
+            if link in (turn.parent, turn.child):
+                for sense in (1, -1):
+                    inside = scaled(self._axis_in(link, turn), sense)
+                    if all(map(self.symbols.witness.is_zero, subtract(apply(own.constant, inside), axis))):
+                        return inside
+        return apply(transposed(own.constant), axis)
+
+    def _axis_in(self, link: str, turn: Hinge) -> Vector:
+        """The axis of a hinge in one of its links: as the file has it, if that joint is its own."""
+        joint = self.record.joints.get(next(iter(turn.joints), ""))
+        if joint is not None and joint.type.turns == 1:
+            own = self.symbols.geometry.joints[joint.name]
+            axis = next(own.axes[step.direction] for step in joint.type.steps if step.kind == "turn")
+            if link in (joint.parent, joint.child):
+                return axis if link == joint.parent else apply(transposed(own.turn), axis)
+        return turn.axis if link == turn.parent else scaled(turn.back.axis, -1)
 
     def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
         numbered: dict[int, list[str]] = {}
         for link, own in self.placed.links.items():
-            number = own.rod if kind == "rod" else own.circle if own.rod is None else None
+            circle = own.circle if own.second is None else own.second
+            number = own.rod if kind == "rod" else circle if own.rod is None else None
             if number is not None:
                 numbered.setdefault(number, []).append(link)
         return numbered
@@ -159,15 +249,21 @@ class _Loops:
                 yield axes[step.direction], start + first
 
     def _turning(self, joint: Joint, along: Vector) -> UnknownDirection | None:
-        """The circle by which the direction of a slider turns, across its axis. Errors: NotDerivedError."""
+        """The circle by which the direction of a slider turns, across its axis, or the rod that it is the direction of.
+
+        Errors:
+            NotDerivedError: it slides otherwise.
+        """
         used = {symbol for part in along for symbol in sympy.sympify(part).free_symbols}
         turning = [own for own in (*self.circles.values(), *self.rods.values()) if used & {*own.unknowns}]
         if not turning:
             return None
-        (circle,) = turning
-        still = (sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along)
-        if circle.kind != "circle" or not all(map(self.symbols.witness.is_zero, still)):
-            raise NotDerivedError(f"{joint.name} slides on a link that turns, and not across the axis of its turns")
+        circle = turning[0]
+        still = [sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along]
+        if len(turning) > 1 or not all(map(self.symbols.witness.is_zero, still)):
+            raise NotDerivedError(
+                f"{joint.name} slides on a link that turns, not across the axis of its turns, nor along its line"
+            )
         if circle in self.strokes.values():
             raise NotDerivedError(f"{joint.name} slides on a link that turns, beside another slider")
         return circle
@@ -181,13 +277,29 @@ class _Loops:
         return self._turned(own, turned)
 
     def _turned(self, own: Orientation, turned: Vector) -> Vector:
-        """A vector that turns on a circle, if there is one."""
+        """A vector that turns on a circle, if there is one, or on one that turns on another."""
         if own.axis is None or own.circle is None:
             return turned
-        cosine, sine = self.circles[own.circle].unknowns
-        along = scaled(own.axis, dot(own.axis, turned))
-        across = self._tidied(subtract(turned, along))
-        return add(along, add(scaled(across, cosine), scaled(self._tidied(cross(own.axis, across)), sine)))
+        parts = [(sympy.Integer(1), turned)]
+        if own.second is not None and own.hinge is not None:
+            parts = self._about(own.hinge, own.second, turned)
+        whole: Vector = (0, 0, 0)
+        for factor, part in parts:
+            for share, vector in self._about(own.axis, own.circle, part):
+                whole = add(whole, scaled(vector, factor * share))
+        return whole
+
+    def _about(self, axis: Vector, circle: int, turned: Vector) -> list[tuple[sympy.Expr, Vector]]:
+        """Vectors of which a turned one is the sum, by 1, the cosine and the sine."""
+        cosine, sine = self.circles[circle].unknowns
+        along = self._short(axis, self._tidied(scaled(axis, dot(axis, turned))))
+        across = self._short(axis, self._tidied(subtract(turned, along)))
+        beside = self._short(axis, self._tidied(cross(axis, across)))
+        return [(sympy.Integer(1), along), (cosine, across), (sine, beside)]
+
+    def _short(self, axis: Vector, vector: Vector) -> Vector:
+        """A vector by names, where it turns about an axis that what is given turns."""
+        return self.placed.named.vector(vector) if any(map(self.placed.named.turned, axis)) else vector
 
     def _along(self, link: str, own: Orientation, vector: Vector) -> Vector:
         line, hinge = own.line or (0, 0, 0), own.hinge or (0, 0, 0)

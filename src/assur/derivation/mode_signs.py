@@ -107,6 +107,12 @@ class _Matching:
                 left = {k: name for k, name in left.items() if name not in factors}
             if left:
                 raise NotDerivedError(f"{', '.join(left.values())} name modes, and no root has their sign")
+        names = [{name for (of, _), (name, _) in matched.items() if of == problem} for problem in self.solutions]
+        if alike := set.intersection(*names):
+            raise NotDerivedError(
+                f"modes of both problems are called {', '.join(sorted(alike))}: a closed form needs names that differ, "
+                "which [modes] of the file can give"
+            )
         return MatchedSigns(matched, factors, products)
 
     def _roots(

@@ -9,16 +9,21 @@ one body then, and the argument goes round again.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
 import sympy
 
 from assur.derivation.exact_vectors import ExactVectors
-from assur.derivation.hinges import Hinge, RigidPair, hinges, point_on, rods_of
+from assur.derivation.hinges import HOME, Hinge, RigidPair, hinges, point_on, rods_of, slides
+from assur.derivation.named_directions import NamedDirections
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.posed_orientation import posed_orientation
+from assur.derivation.rotations_at_home import rotations_at_home
 from assur.derivation.symbols import GivenSymbols
 from assur.joints.steps import UNTURNED, about
-from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed
+from assur.model.mechanism import Joint
+from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed, triple
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,7 @@ class ConstraintReason:
         first, second: the directions.
         first_joints, second_joints: the joints of both chains.
         constant: the orientation of the link against the carrier.
+        third: another direction of axes of the second chain, on its way.
     """
 
     link: str
@@ -39,6 +45,7 @@ class ConstraintReason:
     first_joints: tuple[str, ...]
     second_joints: tuple[str, ...]
     constant: Matrix
+    third: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -47,7 +54,7 @@ class Orientation:
 
     A rod has the number `rod`, which rods that stay parallel share, and a direction `line` in the frame of `constant`.
     It lies between ball joints, or on a hinge across the axis about which what carries it turns:
-    Rot(axis, psi) Rot(hinge, phi) constant.
+    Rot(axis, psi) Rot(hinge, phi) constant. Another link on a hinge has phi of circle number `second`.
     """
 
     constant: Matrix = UNTURNED
@@ -56,6 +63,7 @@ class Orientation:
     line: Vector | None = None
     rod: int | None = None
     hinge: Vector | None = None
+    second: int | None = None
 
 
 @dataclass(frozen=True)
@@ -69,10 +77,28 @@ class _Way:
 
 @dataclass(frozen=True, eq=False)
 class LinkOrientations:
-    """Orientation of each link, and of the crosses of universal joints, with the reasons of those that do not turn."""
+    """Orientation of each link, and of the crosses of universal joints, with the reasons of those that do not turn.
+
+    Attributes:
+        links: their orientations.
+        reasons: of those that do not turn.
+        hinges: axes that two links share.
+        named: entries of rotations and directions that what is given turns.
+    """
 
     links: Mapping[str, Orientation]
     reasons: tuple[ConstraintReason, ...]
+    hinges: tuple[Hinge, ...]
+    named: NamedDirections
+
+
+def _with_names(own: Orientation, named: NamedDirections) -> Orientation:
+    """An orientation about a direction that what is given turns, by names."""
+    if own.axis is None or own.rod is not None or not any(map(named.turned, own.axis)):
+        return own
+    a, b, c = (named.vector(row) for row in own.constant)
+    hinge = None if own.hinge is None else named.vector(own.hinge)
+    return replace(own, constant=(a, b, c), axis=named.vector(own.axis), hinge=hinge)
 
 
 def orientations(symbols: GivenSymbols) -> LinkOrientations:
@@ -87,11 +113,11 @@ class _Reading:
 
     def orientations(self) -> LinkOrientations:
         joints = [*hinges(self.symbols)]
-        if self.symbols.orientation is not None:
-            joints.append(RigidPair(self.record.base, self.record.platform.link, self.symbols.orientation))
+        if (posed := posed_orientation(self.symbols)) is not None:
+            joints.append(posed.pair)
         reasons: list[ConstraintReason] = []
         bodies = self._bodies(joints)
-        while (more := self._held_together(self._free(joints, bodies))) is not None:
+        while (more := self._held(self._free(joints, bodies))) is not None:
             stiff, reason = more
             joints.append(stiff)
             reasons.append(reason)
@@ -109,22 +135,55 @@ class _Reading:
                 links[link] = Orientation(product(way.constant, inside), way.axis, numbers[body])
         hinged = self._hinged(free, ways)
         for number, (body, (way, hinge, constant)) in enumerate(hinged.items()):
+            line = self._across(body, self._side(body, bodies), constant, hinge)
             for link, (own, inside) in bodies.items():
                 if own == body:
                     whole = self.exact.tidy(product(constant, inside))
-                    line = self._line(link, whole, hinge)
                     links[link] = Orientation(whole, way.axis, numbers[self._carrier[body]], line, number, hinge)
-        links |= self._rods(links, len(hinged))
+        links |= self._rods(links, bodies, len(hinged))
+        while (carried := self._carried_in_space(free, links, bodies)) is not None:
+            moved, orientation = carried
+            number = 1 + max((part.second or part.circle or 0 for part in links.values()), default=0)
+            for link, (other, inside) in bodies.items():
+                if other == moved:
+                    whole = self.exact.tidy(product(orientation.constant, inside))
+                    links[link] = replace(orientation, constant=whole, second=number)
         missing = [link for link in self.record.links if link not in links]
         if missing:
-            raise NotDerivedError(
-                f"{', '.join(missing)}: neither fixed in orientation, nor turning about one direction"
+            held = "; ".join(
+                f"{link} turns in space, held by {', '.join(joint.name for joint in self._joints_of(link))}"
+                for link in missing
             )
-        return LinkOrientations(links, tuple(reasons))
+            raise NotDerivedError(
+                f"{', '.join(missing)}: neither fixed in orientation, nor turning about one direction or about an axis "
+                f"that does: {held}"
+            )
+        shared = [turn for turn in free if {turn.parent, turn.child} <= links.keys()]
+        named = NamedDirections(self.symbols, posed.definitions if posed else ())
+        links = {link: _with_names(own, named) for link, own in links.items()}
+        return LinkOrientations(links, tuple(reasons), tuple(shared), named)
+
+    def _carried_in_space(
+        self, free: Sequence[Hinge], links: Mapping[str, Orientation], bodies: Mapping[str, tuple[str, Matrix]]
+    ) -> tuple[str, Orientation] | None:
+        """A body on an axis that a link carries which turns about one direction: the platform if it is one."""
+        both = [*free, *(turn.back for turn in free)]
+        platform, _ = bodies[self.record.platform.link]
+        for turn in sorted(both, key=lambda own: own.child != platform):
+            carrier = links.get(turn.parent)
+            real = any(own == turn.child and link in self.record.links for link, (own, _) in bodies.items())
+            if carrier is None or turn.child in links or not real:
+                continue
+            if carrier.circle is not None and carrier.second is None and carrier.rod is None:
+                hinge = self.exact.tidied(apply(carrier.constant, turn.axis))
+                constant = self.exact.tidy(product(carrier.constant, turn.after))
+                return turn.child, replace(carrier, constant=constant, hinge=hinge)
+        return None
 
     def _bodies(self, joints: Sequence[RigidPair | Hinge]) -> dict[str, tuple[str, Matrix]]:
         """Link -> its body, called by its first link, and the link's orientation in it."""
-        links = dict.fromkeys((self.record.base, *(link for joint in joints for link in (joint.parent, joint.child))))
+        named = (link for joint in joints for link in (joint.parent, joint.child))
+        links = dict.fromkeys((self.record.base, *named, *self.record.links))
         stiff = [joint for joint in joints if isinstance(joint, RigidPair)]
         bodies: dict[str, tuple[str, Matrix]] = {}
         for link in links:
@@ -196,6 +255,43 @@ class _Reading:
         turned = apply(product(constant, transposed(plain)), axis)
         return plain if all(map(self.witness.is_zero, subtract(turned, axis))) else constant
 
+    def _held(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
+        return self._held_together(free) or self._triangle(free)
+
+    def _triangle(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
+        """Two bodies that turn against a third about u and v, and against each other about w, so not at all.
+
+        Rot(u, a) Rot(w, c) = Rot(v, b) has two solutions where the three directions are independent, one of them as
+        the links stand where all angles are zero.
+        """
+        bodies = dict.fromkeys(body for turn in free for body in (turn.parent, turn.child))
+        for root in bodies:
+            ways = {body: own[0] for body, own in self._ways(free, root, UNTURNED).items()}
+            for body, first in ways.items():
+                inner = self._ways(free, body, first.constant)
+                for other, second in ways.items():
+                    for between in inner.get(other, ()):
+                        volume = triple(first.axis, second.axis, between.axis)
+                        fits = self.exact.equal(between.constant, second.constant)
+                        if not self.witness.is_zero(volume) and fits and self._as_at_home(root, body, first):
+                            axes = first.axis, between.axis
+                            joints = (*second.joints, *between.joints)
+                            reason = ConstraintReason(
+                                body, root, *axes, first.joints, joints, first.constant, second.axis
+                            )
+                            return RigidPair(root, body, first.constant, ()), reason
+        return None
+
+    def _as_at_home(self, root: str, body: str, way: _Way) -> bool:
+        """Whether a body stands at home as if it had not turned."""
+        rotations = rotations_at_home(self.record)
+        if not {root, body} <= rotations.keys() or any(
+            sympy.sympify(part).free_symbols for row in way.constant for part in row
+        ):
+            return False
+        apart = rotations[root].T @ rotations[body] - np.array(sympy.Matrix(way.constant).evalf(30), dtype=float)
+        return bool(np.max(np.abs(apart)) < HOME)
+
     def _held_together(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
         """Two bodies that turn against each other about two directions, so not at all."""
         for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
@@ -240,35 +336,53 @@ class _Reading:
                 hinged[turn.child] = way, hinge, self.exact.tidy(product(way.constant, turn.after))
         return hinged
 
-    def _line(self, link: str, constant: Matrix, hinge: Vector) -> Vector:
+    def _side(self, body: str, bodies: Mapping[str, tuple[str, Matrix]]) -> Vector | None:
+        """From one joint of a body to another, or the direction in which parts of it slide, in the body's frame."""
+        for link, (own, inside) in bodies.items():
+            if own == body and link in self.record.links:
+                start, *points = (point_on(self.symbols, joint, link) for joint in self._joints_of(link))
+                sides = [subtract(point, start) for point in points]
+                sides += [axis for joint in self._joints_of(link) for axis in slides(self.symbols, joint, link)]
+                for side in sides:
+                    if any(side):
+                        return apply(inside, side)
+        return None
+
+    def _joints_of(self, link: str) -> list[Joint]:
+        return [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
+
+    def _across(self, body: str, side: Vector | None, constant: Matrix, hinge: Vector) -> Vector:
         """The direction of a rod across its hinge, where psi and phi are zero; along the hinge it may reach too."""
-        joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
-        start, *points = (point_on(self.symbols, joint, link) for joint in joints)
-        side = next((vector for vector in (subtract(point, start) for point in points) if any(vector)), None)
         if side is None:
-            raise NotDerivedError(f"{link}: all its joints have one point, so it has no direction")
+            raise NotDerivedError(f"{body}: all its joints have one point, so it has no direction")
         along = apply(constant, side)
         across = self.exact.tidied(subtract(along, scaled(hinge, dot(along, hinge))))
         if not any(across):
-            raise NotDerivedError(f"{link} reaches along its hinge alone")
+            raise NotDerivedError(f"{body} reaches along its hinge alone")
         return self.exact.tidied(self.exact.unit(across))
 
-    def _rods(self, links: Mapping[str, Orientation], first_number: int) -> dict[str, Orientation]:
-        """Rods between two ball joints."""
+    def _rods(
+        self, links: Mapping[str, Orientation], bodies: Mapping[str, tuple[str, Matrix]], first_number: int
+    ) -> dict[str, Orientation]:
+        """Rods between two ball or universal joints, each one link or two that slide on each other."""
         together = {}
         for group in self.record.generalised.values():
             if group.kind == "P(4S)":
                 first, second = rods_of(self.record, group)
                 together[second] = first
-        lines = {}
-        for link in self.record.links:
-            joints = [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
-            if link not in links and len(joints) == 2 and all(joint.type.ball for joint in joints):
-                near, far = (point_on(self.symbols, joint, link) for joint in joints)
-                lines[link] = self.exact.unit(subtract(far, near))
-        alone = [link for link in lines if link not in together]
-        numbers = {link: number for number, link in enumerate(alone, start=first_number)}
+        lines: dict[str, Vector] = {}
+        for body in dict.fromkeys(own for own, _ in bodies.values()):
+            own = [link for link, (other, _) in bodies.items() if other == body and link in self.record.links]
+            ends = [joint for joint in self.record.joints.values() if (joint.parent in own) != (joint.child in own)]
+            held = len(ends) == len(("near", "far")) and all(joint.type.ball or joint.type.turns > 1 for joint in ends)
+            if own and held and not links.keys() & {*own}:
+                side = self._side(body, bodies)
+                if side is not None:
+                    lines |= dict.fromkeys(own, self.exact.unit(side))
+        alone = [body for body in dict.fromkeys(bodies[link][0] for link in lines) if body not in together]
+        numbers = {body: number for number, body in enumerate(alone, start=first_number)}
+        rods = ((link, *bodies[link], line) for link, line in lines.items())
         return {
-            link: Orientation(UNTURNED, line=line, rod=numbers[together.get(link, link)])
-            for link, line in lines.items()
+            link: Orientation(inside, line=line, rod=numbers[together.get(body, body)])
+            for link, body, inside, line in rods
         }

@@ -202,13 +202,14 @@ class PrintedLetters:
         index = f"{number}" if len(several) == 1 else f"{number}{'abcdefgh'[several.index(unknown)]}"
         return {
             symbol: PrintedLetter(f"{free}_{{{index}{axis}}}", rank=5)
-            for symbol, axis in zip(unknown.unknowns, "xy", strict=True)
+            for symbol, axis in zip(unknown.unknowns, "xyz"[: len(unknown.unknowns)], strict=True)
         }
 
     def _named(self, unknown: UnknownDirection) -> tuple[str, int] | None:
         """The file's letter of the angle by which a link turns against what does not turn, and its sense."""
         record, placed = self.solution.symbols.record, self.solution.placed.links
-        if record.platform.link in unknown.links and "phi" in record.platform.pose:
+        level = record.platform.link in unknown.links and placed[record.platform.link].second is None
+        if level and "phi" in record.platform.pose:
             return letter("phi"), 1
         names = [(input_letter(driven), driven.coordinate) for driven in record.inputs if not driven.offset]
         names += [(letter(name), coordinate) for name, coordinate in record.angles.items()]

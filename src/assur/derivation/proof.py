@@ -13,6 +13,7 @@ from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import Orientation
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.space import turning_in_space
 from assur.derivation.strokes import StrokeVector, stroke_vectors
 from assur.results.answers.derivation import (
     DerivationProof,
@@ -31,6 +32,8 @@ def proof(solution: AnalyticSolution) -> DerivationProof:
     >>> own.loops["loop2"], own.sets[0].equations[0]
     ('l1*sin_theta1 - l1*sin_theta2 + l2*sin_rod1 - l2*sin_rod2', {'loop2': '1'})
     """
+    for what in turning_in_space(solution):
+        raise NoIdentityError(f"no identities are written for {what}")
     return _Proof(solution).whole()
 
 

@@ -24,4 +24,5 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
 
 def _chain(reason: ConstraintReason, axis: Vector, first: bool) -> str:
     joints = reason.first_joints if first else reason.second_joints
-    return f"axes along {direction(axis)} ({', '.join(joints)})"
+    third = "" if first or reason.third is None else f"{direction(reason.third)} and "
+    return f"axes along {third}{direction(axis)} ({', '.join(joints)})"

@@ -17,9 +17,11 @@ from assur.derivation.witness import ModularWitness
 
 
 def next_set(
-    forms: Sequence[Form], left: Sequence[UnknownDirection], witness: ModularWitness
+    forms: Sequence[Form], left: Sequence[UnknownDirection], witness: ModularWitness, more: int = 0
 ) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
     """The smallest set among the directions that are left, and the equations in which these alone are unknown.
+
+    With `more` equations than it needs, that many of what is taken as known are determined too.
 
     Errors:
         NotDerivedError: the equations determine none.
@@ -29,7 +31,7 @@ def next_set(
     for size in range(1, len(left) + 1):
         for chosen in combinations(left, size):
             others = [unknown for direction in left if direction not in chosen for unknown in direction.unknowns]
-            if whole - rank(forms, others, witness) >= sum(direction.freedoms for direction in chosen):
+            if whole - rank(forms, others, witness) >= more + sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
                 return chosen, _independent(
                     own, [unknown for direction in chosen for unknown in direction.unknowns], witness

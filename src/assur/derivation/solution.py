@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from itertools import product as choices_of
@@ -15,16 +14,13 @@ from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.angle_residues import cycle_type, some_root
 from assur.derivation.cycle_types import CycleType, GroupFindings, findings
 from assur.derivation.definitions import Definition
-from assur.derivation.eliminants import eliminated
-from assur.derivation.elimination import Root, SolvedSet, solution
+from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.home_numbers import home_numbers
-from assur.derivation.linear import Form, divided, form_of, projected, sparse, value_of
-from assur.derivation.loop_equations import LoopEquations, UnknownDirection, loop_equations
-from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, sparse, value_of
+from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.orientations import LinkOrientations, orientations
-from assur.derivation.resisting_set import ResistingSetError
-from assur.derivation.sets import next_set
-from assur.derivation.strokes import StrokeVector, stroke_vectors, with_strokes
+from assur.derivation.sets_in_order import sets_in_order
+from assur.derivation.strokes import stroke_vectors
 from assur.derivation.symbols import GivenSymbols
 from assur.derivation.witness import ModularWitness, NoResidueRootError
 from assur.kinematics.modes import Problem
@@ -89,6 +85,7 @@ class AnalyticSolution:
     def drawn(self, seed: int, signs: Sequence[int]) -> ModularWitness:
         """A witness of a branch, at dimensions that stay what they are when all is drawn anew."""
         witness = ModularWitness(seed)
+        witness.with_roots(self.symbols.radicands)
         dimensions = [*self.symbols.parameters.values()]
         values = [witness.value(symbol) for symbol in dimensions]
         witness.drawn(dimensions, lambda: values)
@@ -106,8 +103,7 @@ class AnalyticSolution:
     ) -> ModularWitness:
         """A witness of its own, with everything that sets define."""
         witness = witness or ModularWitness(seed)
-        for cosine, sine in self.symbols.circles:
-            witness.on_circle(cosine, sine)
+        self.symbols.draw(witness)
         for relation in self.loops.relations:
             witness.define(relation.symbol, relation.formula)
         turned = {root.symbol: sign for root, sign in zip(self.roots, signs, strict=False)}
@@ -163,9 +159,10 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     witness.home = home_numbers(symbols, placed, loops)
     vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
     fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
-    lengths, forms = projected(sparse(forms, witness), fixed, witness)
-    equations = sparse([divided(form) for form in forms], witness)
-    sets = _sets(equations, loops.directions, vectors, placed, witness, record)
+    axes, forms = forms[: loops.axes], _more_than(forms[: loops.axes], forms[loops.axes :], loops, witness)
+    lengths, short = projected(sparse(forms, witness), fixed, witness)
+    short = [*axes, *sparse([divided(form) for form in short], witness)]
+    sets = sets_in_order(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed)
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
@@ -173,57 +170,20 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     return AnalyticSolution(symbols, placed, loops, sets, backward, (x, y, z))
 
 
-def _sets(
-    forms: Sequence[Form],
-    directions: Sequence[UnknownDirection],
-    vectors: Sequence[StrokeVector],
-    placed: LinkOrientations,
-    witness: ModularWitness,
-    record: MechanismRecord,
-) -> tuple[SolvedSet, ...]:
-    instead = {vector.circle: vector.direction for vector in vectors}
-    left, sets, taken = [instead.get(own, own) for own in directions], list[SolvedSet](), _names(record)
-    while left:
-        chosen, number = tuple(left), len(sets) + 1
-        try:
-            chosen, equations = next_set(forms, left, witness)
-            plain = _solved(number, chosen, equations, witness, taken, record.platform.link)
-        except NotDerivedError as error:
-            raise ResistingSetError(str(error), placed, tuple(sets), chosen) from error
-        sets.append(with_strokes(plain, vectors, number, witness, taken))
-        left = [direction for direction in left if direction not in chosen]
-        unknowns = [unknown for direction in left for unknown in direction.unknowns]
-        forms = [form_of(value_of(form), unknowns, witness) for form in forms]
-        forms = [form for form in forms if form.keys() & {*unknowns}]
-    if sum(part.eliminant is not None for part in sets) > 1:
-        names = " and ".join(part.name for part in sets if part.eliminant)
-        last = sets.pop()
-        raise ResistingSetError(f"a polynomial for each root of another: {names}", placed, tuple(sets), last.directions)
-    return tuple(sets)
-
-
-def _solved(
-    number: int,
-    chosen: Sequence[UnknownDirection],
-    equations: Sequence[Form],
-    witness: ModularWitness,
-    taken: set[str],
-    platform: str,
-) -> SolvedSet:
-    """A set by square roots, else by one polynomial."""
-    try:
-        return solution(number, chosen, equations, witness, taken)
-    except NotDerivedError as error:
-        try:
-            return eliminated(chosen, equations, witness, taken, platform)
-        except NotDerivedError as other:
-            raise NotDerivedError(f"{error}; {other}") from other
-
-
-def _names(record: MechanismRecord) -> set[str]:
-    """Names of the file, and every number of a letter that points or joints have."""
-    given: Mapping[str, object] = record.parameters
-    points = [*record.points, *(name for joint in record.joints.values() for name in (joint.name, joint.alias))]
-    letters = {match[1] for name in points if (match := re.fullmatch(r"(?:.*\.)?([A-Z])(?![A-Z]).{0,2}", name))}
-    numbered = {f"{letter}{number}" for letter in letters for number in range(1, len(record.joints) + 1)}
-    return {*given, *(driven.name for driven in record.inputs), *record.platform.pose, *numbered}
+def _more_than(
+    axes: Sequence[Form], forms: Sequence[Form], loops: LoopEquations, witness: ModularWitness
+) -> list[Form]:
+    """Loop equations that do not follow from those of axes that links share, as they do where all axes meet."""
+    if not axes:
+        return list(forms)
+    keys = list(dict.fromkeys(key for form in (*axes, *forms) for key in form))
+    carriers = {unknown for own in loops.carriers for unknown in own.unknowns}
+    keys = [key for key in keys if key not in carriers]
+    known = [form_of(value_of(form), [key for key in keys if key != ONE], witness) for form in axes]
+    size, kept = rank(known, keys, witness), list[Form]()
+    for form in forms:
+        own = form_of(value_of(form), [key for key in keys if key != ONE], witness)
+        if (larger := rank([*known, own], keys, witness)) > size:
+            known, size = [*known, own], larger
+            kept.append(form)
+    return kept

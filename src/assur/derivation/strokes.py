@@ -2,7 +2,8 @@
 
 Let a link turn by (c, s) in a plane, and a length q run along its direction p. Where it meets the loop equations only
 by one vector of the link, V = (q + w1) (c, s) + w2 (-s, c), the two components of V take the place of q, c and s. Then
-(q + w1)^2 = V.V - w2^2, with either sign, and (c, s) follow of V.
+(q + w1)^2 = V.V - w2^2, with either sign, and (c, s) follow of V. Along a rod between ball or universal joints, whose
+direction is e, it is V = (q + w1) e.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ def stroke_vectors(
     vectors: list[StrokeVector] = []
     left = list(forms)
     for length, circle in strokes.items():
-        vector = _vector(left, length, circle, witness)
+        vector = (_along_rod if circle.kind == "rod" else _vector)(left, length, circle, witness)
         left = [_replaced(form, vector) for form in left]
         vectors.append(vector)
     return tuple(vectors), left
@@ -92,6 +93,25 @@ def _vector(
     return StrokeVector(length, circle, along, beside, UnknownDirection("stroke", name, unknowns, circle.links))
 
 
+def _along_rod(
+    forms: Sequence[Form], length: sympy.Symbol, rod: UnknownDirection, witness: ModularWitness
+) -> StrokeVector:
+    """Errors: NotDerivedError, for a rod with more than one length in the loops."""
+    along: set[sympy.Expr] = set()
+    for form in forms:
+        for unknown in rod.unknowns:
+            part = sympy.expand(form.get(unknown, ZERO))
+            if not witness.is_zero(part.coeff(length)):
+                along.add(sympy.cancel(part.subs(length, 0) / part.coeff(length)))
+            elif not witness.is_zero(part):
+                along.add(sympy.zoo)
+    if len(along) > 1:
+        raise NotDerivedError(f"{rod.name} turns, carries a slider, and has two vectors in the loops")
+    (share,) = along
+    unknowns = tuple(sympy.Symbol(f"v{axis}_{rod.name}", real=True) for axis in "xyz")
+    return StrokeVector(length, rod, share, ZERO, UnknownDirection("stroke", rod.name, unknowns, rod.links))
+
+
 def _parts(
     form: Form, length: sympy.Symbol, circle: UnknownDirection
 ) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr, sympy.Expr]:
@@ -101,9 +121,10 @@ def _parts(
 
 
 def _replaced(form: Form, vector: StrokeVector) -> Form:
-    p, q, _, _ = _parts(form, vector.length, vector.circle)
-    rest = {key: part for key, part in form.items() if key not in vector.circle.unknowns}
-    shares = zip(vector.direction.unknowns, (p, q), strict=True)
+    old = vector.circle.unknowns
+    parts = [sympy.expand(form.get(unknown, ZERO)).coeff(vector.length) for unknown in old]
+    rest = {key: part for key, part in form.items() if key not in old}
+    shares = zip(vector.direction.unknowns, parts, strict=True)
     return rest | {unknown: share for unknown, share in shares if share != 0}
 
 
@@ -134,9 +155,8 @@ def _solved(
     roots: list[Root],
     conditions: list[sympy.Expr],
 ) -> Iterator[Definition]:
-    (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
     square = names.named(f"N{suffix}")
-    yield Definition(square, x**2 + y**2)
+    yield Definition(square, sum((part**2 for part in vector.direction.unknowns), ZERO))
     conditions.append(square)
     radicand = names.named(f"M{suffix}")
     yield Definition(radicand, square - vector.beside**2)
@@ -146,8 +166,9 @@ def _solved(
     yield Definition(root, sympy.sqrt(radicand))
     yield Definition(vector.length, root - vector.along)
     if vector.beside == 0:
-        yield Definition(cosine, x / root)
-        yield Definition(sine, y / root)
+        for unknown, part in zip(vector.circle.unknowns, vector.direction.unknowns, strict=True):
+            yield Definition(unknown, part / root)
     else:
+        (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
         yield Definition(cosine, (root * x + vector.beside * y) / square)
         yield Definition(sine, (root * y - vector.beside * x) / square)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -12,9 +13,8 @@ from assur.derivation.witness import ModularWitness
 from assur.joint_graph.geometry import Geometry, written_geometry
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION
 from assur.model.written import NumberReading
-from assur.numerics.vectors import Matrix, about_x, about_y, about_z, product
 
 Circle = tuple[sympy.Symbol, sympy.Symbol]
 """Cosine and sine of an angle."""
@@ -44,6 +44,9 @@ class GivenSymbols:
     problem: Problem
     witness: ModularWitness
 
+    def __post_init__(self) -> None:
+        self.draw(self.witness)
+
     @cached_property
     def parameters(self) -> dict[str, sympy.Symbol]:
         """Name of a dimension -> its symbol."""
@@ -71,7 +74,6 @@ class GivenSymbols:
                 own[driven.coordinate.index] = (sympy.Symbol(driven.name, real=True) - offset) * int(driven.sign)
             else:
                 cosine, sine = circle_of(driven.name)
-                self.witness.on_circle(cosine, sine)
                 own[driven.coordinate.index] = cosine, int(driven.sign) * sine
         return own
 
@@ -96,21 +98,32 @@ class GivenSymbols:
             for symbol in (circle_of(name) if circle_of(name)[0] in circles else (sympy.Symbol(name, real=True),))
         ]
 
+    @property
+    def quaternion(self) -> tuple[sympy.Symbol, ...]:
+        """Components of a unit quaternion that is given."""
+        posed = self.record.platform.pose if self.problem == "inverse" else ()
+        return tuple(sympy.Symbol(name, real=True) for name in QUATERNION if name in posed)
+
+    @cached_property
+    def radicands(self) -> list[Fraction]:
+        """Numbers whose roots are in axes and turns of the joints."""
+        joints = self.geometry.joints.values()
+        vectors = [vector for own in joints for vector in (own.at, own.child_at, *own.axes, *own.turn)]
+        powers = {part for vector in vectors for own in vector for part in sympy.sympify(own).atoms(sympy.Pow)}
+        bases = {part.base for part in powers if part.base.is_Rational and part.base > 0 and not part.exp.is_Integer}
+        return sorted(Fraction(int(base.p), int(base.q)) for base in bases)
+
+    def draw(self, witness: ModularWitness) -> None:
+        """Values of what is given and is not free: cosine and sine of an angle, a unit quaternion."""
+        witness.with_roots(self.radicands)
+        for cosine, sine in self.circles:
+            witness.on_circle(cosine, sine)
+        if self.quaternion:
+            witness.on_sphere(self.quaternion)
+
     @cached_property
     def place(self) -> dict[str, sympy.Symbol]:
         """Coordinate of the platform's point -> its symbol, where the pose is given."""
         if self.problem == "direct":
             return {}
         return {name: sympy.Symbol(name, real=True) for name in self.record.platform.pose if name in LENGTHS}
-
-    @cached_property
-    def orientation(self) -> Matrix | None:
-        """The platform's, where the pose gives one."""
-        if self.problem == "direct" or not {*ANGLES} & {*self.record.platform.pose}:
-            return None
-        turns: dict[str, Any] = dict.fromkeys(ANGLES, (1, 0))
-        for name in self.record.platform.pose:
-            if name in ANGLES:
-                turns[name] = circle_of(name)
-                self.witness.on_circle(*turns[name])
-        return product(product(about_z(turns["phi"]), about_y(turns["theta"])), about_x(turns["psi"]))

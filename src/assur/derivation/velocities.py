@@ -19,6 +19,7 @@ from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.space import turning_in_space
 from assur.derivation.symbols import circle_of
 from assur.model.mechanism import Joint
 from assur.model.pose import ANGLES
@@ -43,6 +44,8 @@ class VelocityEquations:
 @lru_cache(maxsize=8)
 def velocity_equations(solution: AnalyticSolution) -> VelocityEquations:
     """The velocity equations of an inverse problem that was solved. Errors: NotDerivedError."""
+    for what in turning_in_space(solution):
+        raise NotDerivedError(f"no velocity equations are derived for {what}")
     return _Velocities(solution).equations()
 
 

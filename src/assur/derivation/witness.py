@@ -6,6 +6,7 @@ drawn; what is derived of them has a value by its formula. Where a radicand has 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
@@ -20,6 +21,8 @@ Element = tuple[int, int]
 FINEST = 360 * 10**12
 """Shares of a turn that angles are counted in that are no root of unity of the field, as those of drawn directions: one
 unit for all, so that sums of decimals stay what they are."""
+PRIMES = 64
+"""Primes that are tried for roots of numbers; of k roots one prime in 2^k has them all."""
 TRIES = 200
 """Draws after which a root is taken not to exist; of k roots of roots one draw in 2^k has them all."""
 
@@ -37,7 +40,7 @@ class ModularWitness:
     """
 
     def __init__(self, seed: int = 0, least: int = LARGE) -> None:
-        self._random = np.random.default_rng(seed)
+        self._random, self._least = np.random.default_rng(seed), least
         self.field = PrimeField.drawn(self._random, least)
         self._circles: list[tuple[sympy.Symbol, sympy.Symbol]] = []
         self._definitions: list[tuple[Sequence[sympy.Symbol], Callable[[], Sequence[Element]]]] = []
@@ -45,10 +48,22 @@ class ModularWitness:
         self.home: dict[sympy.Symbol, float] = {}
         """What symbols are at home, where that is known."""
 
+    def with_roots(self, radicands: Sequence[Fraction]) -> None:
+        """Another prime, if need be, modulo which these numbers have roots; before anything has a value."""
+        for _ in range(PRIMES):
+            p = self.field.p
+            if all(pow(own.numerator * own.denominator, (p - 1) // 2, p) == 1 for own in radicands):
+                return
+            self.field = PrimeField.drawn(self._random, self._least)
+
     def on_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
         """Two symbols are cosine and sine of one angle."""
         self._circles.append((cosine, sine))
         self._draw_circle(cosine, sine)
+
+    def on_sphere(self, symbols: Sequence[sympy.Symbol]) -> None:
+        """The squares of some symbols add up to 1."""
+        self.drawn(symbols, lambda: self._on_sphere(len(symbols)))
 
     def define(self, symbol: sympy.Symbol, formula: sympy.Expr) -> None:
         """A symbol stands for a formula of symbols that have a value."""
@@ -57,6 +72,8 @@ class ModularWitness:
     def drawn(self, symbols: Sequence[sympy.Symbol], values: Callable[[], Sequence[Element]]) -> None:
         """What a function works out of values that are known. It may raise NoResidueRootError: all is drawn anew."""
         self._definitions.append((symbols, values))
+        if any(symbol in self._values for symbol in symbols):
+            self._values = {key: own for key, own in self._values.items() if not key.has(*symbols)}
         try:
             self._values |= dict(zip(symbols, values(), strict=True))
         except NoResidueRootError:
@@ -78,8 +95,11 @@ class ModularWitness:
         return self._values[formula]
 
     def at_home(self, formula: Any) -> float:
-        """The value of a formula at home."""
-        return float(sympy.sympify(formula).evalf(30, subs=self.home))
+        """The value of a formula at home; not a number where it divides by what vanishes there."""
+        try:
+            return float(sympy.sympify(formula).evalf(30, subs=self.home))
+        except ZeroDivisionError:
+            return math.nan
 
     def rank(self, rows: list[list[sympy.Expr]]) -> int:
         """The rank of a matrix of formulas."""
@@ -117,6 +137,14 @@ class ModularWitness:
         p, t = self.field.p, below(self._random, 1, self.field.p)
         size = pow(1 + t * t, -1, p)
         self._values[cosine], self._values[sine] = ((1 - t * t) * size % p, 0), (2 * t * size % p, 0)
+
+    def _on_sphere(self, count: int) -> list[Element]:
+        """Seen from a pole: (1 - u^2, 2 u) / (1 + u^2)."""
+        p = self.field.p
+        seen = [below(self._random, 1, p) for _ in range(count - 1)]
+        square = sum(own * own for own in seen) % p
+        size = pow(1 + square, -1, p)
+        return [((1 - square) * size % p, 0), *((2 * own * size % p, 0) for own in seen)]
 
     def _worked_out(self, formula: sympy.Expr) -> Element:
         p = self.field.p

@@ -1,0 +1,33 @@
+"""What of a solution turns in space: identities and velocity equations do not reach it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from assur.derivation.solution import AnalyticSolution
+from assur.model.pose import ANGLES
+
+
+def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
+    """What a solution has of links that turn in space, in words.
+
+    >>> from assur.derivation.solution import analytic_solution
+    >>> from assur.model.registry import load_record
+    >>> [*turning_in_space(analytic_solution(load_record("three_rps"), "inverse"))]
+    ['a platform of whose orientation the pose says a part']
+    >>> [*turning_in_space(analytic_solution(load_record("fivebar"), "inverse"))]
+    []
+    """
+    placed, loops = solution.placed, solution.loops
+    if placed.named.definitions:
+        yield "directions that what is given turns in space"
+    if loops.axes:
+        yield "axes that links share which turn in space"
+    if any(own.kind == "rod" for own in loops.strokes.values()):
+        yield "rods whose length is sought"
+    if any(own.third is not None for own in placed.reasons):
+        yield "links that do not turn because three directions close"
+    record = solution.symbols.record
+    turned = placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
+    if solution.symbols.problem == "inverse" and turned:
+        yield "a platform of whose orientation the pose says a part"
