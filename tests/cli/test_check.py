@@ -29,7 +29,7 @@ def test_a_sound_file(check) -> None:
         "fourbar: sound",
         "4 links, 4 joints; 1 freedom",
         "no closed form: it is solved on its joint graph",
-        "next: assur derive m.toml, for a closed form",
+        "next: assur derive m.toml, for a closed form where there is one",
         "next: assur page m.toml",
     ]
 
@@ -147,7 +147,7 @@ def test_a_note_is_no_fault(check) -> None:
         "note: m.toml:3: unit: the longest link measures 120 m, that is 120 m; "
         "allowed: it is unusual, but may be: 0.001 m to 50 m",
         "    hint: is it mm that is meant?",
-        "next: assur derive m.toml, for a closed form",
+        "next: assur derive m.toml, for a closed form where there is one",
         "next: assur page m.toml",
     ]
 

@@ -14,14 +14,9 @@ from pathlib import Path
 
 from assur.cache import keep, own_content
 from assur.derivation.derivation import derive
-from assur.derivation.loop_equations import loop_equations
 from assur.derivation.not_derived import NotDerivedError
-from assur.derivation.orientations import orientations
-from assur.derivation.symbols import GivenSymbols
-from assur.derivation.witness import ModularWitness
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
-from assur.kinematics.modes import Problem
 from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
@@ -61,23 +56,6 @@ def derived_closed_form(record: MechanismRecord) -> str:
     if why:
         raise NotDerivedError(why)
     return text
-
-
-def may_be_derived(record: MechanismRecord) -> bool:
-    """Whether every link's orientation is of a kind that can be solved for: a glance, without solving.
-
-    >>> from assur.model.registry import load_record
-    >>> may_be_derived(load_record("fivebar")), may_be_derived(load_record("gough_stewart"))
-    (True, False)
-    """
-    asked: tuple[Problem, ...] = ("direct", "inverse")
-    for problem in asked:
-        symbols = GivenSymbols(record, problem, ModularWitness())
-        try:
-            loop_equations(symbols, orientations(symbols))
-        except NotDerivedError:
-            return False
-    return True
 
 
 def _that_agrees(record: MechanismRecord) -> str:

@@ -23,7 +23,6 @@ from assur.kinematics.loops.orientations import Turning, turnings
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.modes import Problem
-from assur.kinematics.pose import pose_of
 from assur.kinematics.search import distinct, search
 from assur.kinematics.turns import told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
@@ -97,32 +96,6 @@ def solve_by_loops(
     if not crossed:
         return _at_once(question, frozenset(parallelograms(record)))
     return _with_crossed(question)
-
-
-def turns_on_circles(record: MechanismRecord) -> bool:
-    """Whether every link turns about one direction or is a rod, with inputs held and with the pose held as at home.
-
-    >>> from assur.model.registry import load_record
-    >>> turns_on_circles(load_record("fivebar")), turns_on_circles(load_record("gough_stewart"))
-    (True, False)
-    """
-    home = home_values(record)
-    asked: tuple[tuple[Problem, FloatArray], ...] = (
-        ("direct", border.inputs_of(record, home)),
-        ("inverse", pose_of(record, home)),
-    )
-    for problem, given in asked:
-        question = PositionQuestion(record, problem, given)
-        try:
-            for orientation in question.orientations:
-                ways = turnings(record, question.locked, orientation, parallel=tuple(parallelograms(record)))
-                if any(link.corners is not None for way in ways for link in way.values()):
-                    return False
-        except NotCirclesError:
-            return False
-        except NoAssemblyError:
-            continue
-    return True
 
 
 @dataclass(frozen=True, eq=False)

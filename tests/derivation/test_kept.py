@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from assur.derivation import kept
-from assur.derivation.kept import derived_closed_form, may_be_derived
+from assur.derivation.kept import derived_closed_form
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import analytic_solution
 from assur.joint_graph.geometry import characteristic_length
@@ -98,8 +98,3 @@ def test_what_was_derived_is_kept_and_so_is_why_nothing_was(tmp_path, monkeypatc
         with pytest.raises(NotDerivedError, match="it resists"):
             derived_closed_form(load_record("fivebar"))
     assert calls == ["fivebar"]
-
-
-def test_a_glance_tells_what_may_be_derived():
-    assert may_be_derived(load_record("tripteron"))
-    assert not may_be_derived(load_record("three_upu"))
