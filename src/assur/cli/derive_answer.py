@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rich.console import RenderableType
+from rich.padding import Padding
 
 from assur.cli import exit_codes
 from assur.cli.options import Outcome
@@ -239,7 +240,8 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
             radicands = {choice.radicand for choice in own.choices}
             yield from (
-                f"  {name} {'<' if name in radicands else '='} 0: {text}" for name, text in own.meanings.items()
+                _meaning(f"{name} {'<' if name in radicands else '='} 0: {text}")
+                for name, text in own.meanings.items()
             )
         if part.sets or part.reasons:
             yield ""
@@ -251,7 +253,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         yield "det Jp and det Jq are products of"
         for factor in data.factors:
             yield Verbatim(f"    {factor.name} = {factor.formula}")
-            yield f"  {factor.name} = 0: {factor.meaning}"
+            yield _meaning(f"{factor.name} = 0: {factor.meaning}")
         yield ""
     if data.not_written is not ABSENT:
         yield f"no closed form is written: {data.not_written}"
@@ -259,6 +261,11 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"
+
+
+def _meaning(text: str) -> Padding:
+    """A sentence under the formulas that it is about, as far in as they are on each of its lines."""
+    return Padding(text, (0, 0, 0, 4), expand=False)
 
 
 def _end(part: DerivedProblem) -> Iterator[RenderableType]:
