@@ -240,8 +240,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield from (Verbatim(f"    {name} = {text}") for name, text in own.formulas.items())
             radicands = {choice.radicand for choice in own.choices}
             yield from (
-                _meaning(f"{name} {'<' if name in radicands else '='} 0: {text}")
-                for name, text in own.meanings.items()
+                _meaning(f"{name} {'<' if name in radicands else '='} 0: {text}") for name, text in own.meanings.items()
             )
         if part.sets or part.reasons:
             yield ""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from assur.kinematics.border import inputs_of
 from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.locked import own
-from assur.kinematics.following.ranks import RankGuard
+from assur.kinematics.following.ranks import Blocked, RankGuard
 from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.stopping import LESS
 from assur.kinematics.following.ways import DimensionWay, system_of
@@ -86,7 +86,10 @@ def resized(
     target = inputs_of(record, values) if held == "inputs" else pose_of(record, values)
     way, guard = DimensionWay(record, name, (before, value), held, target), RankGuard(held, limits, ranks)
     here = Places(np.zeros(1), values[None].copy(), system_of(record, held, values[None], target[None])[1])
-    arrived = guard.begun(way, here) and followed(way, here, guard, Pace(TOLERANCE), np.ones(1))[0]
+    begun = guard.begun(way, here)
+    if begun and guard.leaving:  # at a singularity of what is not held there is no mode that could be kept
+        guard.refused.append(Blocked("lost"))
+    arrived = not guard.refused and followed(way, here, guard, Pace(TOLERANCE), np.ones(1))[0]
     share = float(here.shares[0])
     return Resized(way.mechanism(share), here.joints[0], way.value(share), "" if arrived else _why(guard))
 

@@ -390,7 +390,8 @@ def test_what_is_unusual_is_noted_and_is_no_fault(here, capsys, edits, expected)
 
     here.write_text(written(FOUR, edits), encoding="utf-8")
     assert main(["check", "m.toml"]) == 0
-    _, _, _, *told, following = capsys.readouterr().out.splitlines()
+    _, _, _, *told, derived, following = capsys.readouterr().out.splitlines()
+    assert derived.startswith("next: assur derive m.toml")
     assert following == "next: assur page m.toml"
     assert lines(told) == [line if line[0] == "?" else f"note: m.toml:{line}" for line in expected]
 

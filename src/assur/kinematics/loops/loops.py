@@ -24,7 +24,7 @@ from assur.kinematics.loops.parallelograms import crossed_parallelograms, parall
 from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.modes import Problem
 from assur.kinematics.search import distinct, search
-from assur.kinematics.turns import told_by_turns, with_turns_of_home
+from assur.kinematics.turns import lasting_relations, told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
@@ -257,11 +257,15 @@ def _standing(question: PositionQuestion, turning: Mapping[str, Turning]) -> Loo
 def _told_screws(
     record: MechanismRecord, turning: Mapping[str, Turning], locked: Mapping[int, float]
 ) -> dict[int, float]:
-    """Index -> value, next to home's, of screws between links that stand in known orientations."""
+    """Index -> value, next to home's, of screws between links that stand in known orientations.
+
+    Not of screws whose turns another joint counts: those have one value, which need not be next to home's.
+    """
     told, slices = {}, joint_graph(record).slices
     for name, joint in record.joints.items():
         near, far, index = turning[joint.parent], turning[joint.child], slices[name].start
-        if joint.type.screw and index not in locked and near.still and far.still:
+        free = joint.type.screw and index not in locked and near.still and far.still
+        if free and not np.any(lasting_relations(record)[:, index]):
             turned = rotations.to_vector(near.rotation.T @ far.rotation @ joint.turn.T) @ joint.axes[0]
             home = home_values(record)[index]
             told[index] = float(home + rotations.nearest_turn(turned - home))
