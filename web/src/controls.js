@@ -141,29 +141,28 @@ export function controls(mechanism) {
   const scaled = (length) => (length ? { unit: scene.unit, factor: 1, places } : angles);
   const winds = ({ kind, counted }) => kind !== "length" && !counted; // a screw's turns are never wound back
   let last = null;
+  const sliderOf = (length, given, change) => {
+    const slider = new Slider({ ...given, ...scaled(length) }, (value) => {
+      last = slider;
+      change(value);
+    });
+    return slider;
+  };
   const inputs = scene.inputs.map((item, k) => {
-    const length = item.kind === "length";
-    const label = symbol(item.latex || indexed(item.name));
-    const given = { label, name: item.name, range: item.range, stroke: item.stroke, turns: winds(item), ...scaled(length) };
-    const slider = new Slider(given, (value) => {
-      last = slider;
-      mechanism.toInputs(replaced(mechanism.inputs, k, value));
-    });
-    return slider;
+    const { name, kind, range, stroke } = item;
+    const given = { label: symbol(item.latex || indexed(name)), name, range, stroke, turns: winds(item) };
+    return sliderOf(kind === "length", given, (value) => mechanism.toInputs(replaced(mechanism.inputs, k, value)));
   });
-  const pose = shownPose(model, mechanism.pose).names.map((name, k) => {
+  const shown = () => shownPose(model, mechanism.pose);
+  const pose = shown().names.map((name, k) => {
     const length = isLength(name);
-    const range = rangeOf(name, mechanism);
-    const given = { label: symbol(name), name, range, stroke: null, turns: !length, ...scaled(length) };
-    const slider = new Slider(given, (value) => {
-      last = slider;
-      mechanism.toPose(poseOfShown(model, replaced(shownPose(model, mechanism.pose).values, k, value)));
-    });
-    return slider;
+    const given = { label: symbol(name), name, range: rangeOf(name, mechanism), stroke: null, turns: !length };
+    const change = (value) => mechanism.toPose(poseOfShown(model, replaced(shown().values, k, value)));
+    return sliderOf(length, given, change);
   });
   const show = (anew) => {
     mechanism.inputs.forEach((value, k) => inputs[k].show(value, anew));
-    shownPose(model, mechanism.pose).values.forEach((value, k) => pose[k].show(value, anew));
+    shown().values.forEach((value, k) => pose[k].show(value, anew));
     const { reason } = mechanism;
     const blamed = reason && inputs[scene.inputs.findIndex((item) => item.name === reason.joint)];
     for (const slider of [...inputs, ...pose])

@@ -2,7 +2,8 @@
 
 import { el, minus } from "./dom.js";
 
-const NEAR = 0.03;
+/** A measure below it is called near to a singularity. */
+export const NEAR = 0.03;
 const SAID = 4000; // milliseconds that a word stays that is not about the mechanism
 
 /** @returns {{kind: "good"|"near"|"stopped", text: string}} */

@@ -10,7 +10,8 @@ const MANY = 9; // more than so many hide the mechanism, and each other
 const BUDGET = 10; // milliseconds of a picture that ghosts may take
 
 export class Ghosts {
-  constructor(mechanism, geometries, stage) {
+  /** @param {import("three").Group} current the mechanism itself, which hides what is behind it */
+  constructor(mechanism, geometries, stage, current) {
     const most = Math.max(mechanism.assembly.length, ...mechanism.working.map((item) => item.assembly?.length ?? 0));
     Object.assign(this, { mechanism, stage, shown: mechanism.assembly.length <= MANY, waiting: [], lit: -1 });
     this.bodies = Array.from({ length: most }, (_, k) => {
@@ -20,6 +21,8 @@ export class Ghosts {
       stage.add(ghost.group);
       return ghost;
     });
+    this.groups = this.bodies.map(({ group }) => group);
+    this.solid = [current, ...this.groups];
     this.follow();
     mechanism.listen(() => this.follow());
     this.pick();
@@ -28,7 +31,7 @@ export class Ghosts {
   /** Queues every ghost for the new inputs; as many as time allows are moved before each picture. */
   follow() {
     const { assembly, branch } = this.mechanism;
-    this.bodies.forEach(({ group }, k) => {
+    this.groups.forEach((group, k) => {
       if (!this.shown || k === branch || k >= assembly.length) group.visible = false;
     });
     this.waiting = this.shown ? [...assembly.keys()].filter((k) => k !== branch) : [];
@@ -53,8 +56,7 @@ export class Ghosts {
 
   show(shown) {
     this.shown = shown;
-    const groups = this.bodies.map(({ group }) => group);
-    this.stage.keep(groups, shown);
+    this.stage.keep(this.groups, shown);
     this.follow();
   }
 
@@ -64,10 +66,7 @@ export class Ghosts {
     const at = new Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
     const ray = new Raycaster();
     ray.setFromCamera(at, this.stage.view.camera);
-    const [hit] = ray.intersectObjects(
-      this.stage.root.children.filter((child) => child.visible),
-      true,
-    );
+    const [hit] = ray.intersectObjects(this.solid.filter(({ visible }) => visible));
     return hit?.object.userData.branch ?? -1;
   }
 
@@ -81,8 +80,7 @@ export class Ghosts {
       if (k >= 0) this.mechanism.choose(k);
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (event.buttons || event.pointerType === "touch") return;
-      this.light(this.under(event));
+      if (!event.buttons && event.pointerType !== "touch") this.light(this.under(event));
     });
     canvas.addEventListener("pointerleave", () => this.light(-1));
   }
@@ -90,16 +88,17 @@ export class Ghosts {
   /** Shows one ghost more strongly. */
   light(index) {
     if (index === this.lit) return;
-    const { shown, bodies, mechanism } = this;
-    if (!shown && bodies[this.lit]) bodies[this.lit].group.visible = false;
+    const { shown, bodies, groups, mechanism } = this;
+    const { canvas } = this.stage;
+    if (!shown && groups[this.lit]) groups[this.lit].visible = false;
     this.lit = index;
     if (!shown && mechanism.assembly[index] && index !== mechanism.branch && mechanism.follow(index)) {
-      bodies[index].group.visible = true;
+      groups[index].visible = true;
       bodies[index].place(mechanism.assembly[index].values);
     }
-    this.bodies.forEach(({ tint }, k) => (tint.opacity = k === index ? 0.65 : 0.3));
-    this.stage.canvas.style.cursor = index >= 0 ? "pointer" : "";
-    this.stage.canvas.title = index >= 0 ? `${minus(this.mechanism.assembly[index].label)}: click to make it current` : "";
+    bodies.forEach(({ tint }, k) => (tint.opacity = k === index ? 0.65 : 0.3));
+    canvas.style.cursor = index >= 0 ? "pointer" : "";
+    canvas.title = index >= 0 ? `${minus(mechanism.assembly[index].label)}: click to make it current` : "";
     this.stage.invalidate();
   }
 }

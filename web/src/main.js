@@ -51,7 +51,6 @@ const point = new Mesh(
   new MeshBasicMaterial({ color: "#d55e00", toneMapped: false, depthTest: false }),
 );
 point.renderOrder = 9;
-point.raycast = () => {};
 stage.root.add(point);
 
 function paint() {
@@ -72,8 +71,6 @@ function placeAll() {
 }
 placeAll();
 stage.frame(current.group, scene.extent);
-stage.resize();
-stage.look();
 
 const layers = scene.layers.map((layer) => {
   const object = layerOf(layer);
@@ -89,10 +86,9 @@ const layers = scene.layers.map((layer) => {
     layer.colour,
   );
 });
-const ghosts = new Ghosts(mechanism, geometries, stage);
+const ghosts = new Ghosts(mechanism, geometries, stage, current.group);
 const player = new Player(mechanism, stage);
 mechanism.listen(placeAll);
-placeAll();
 
 const ghostCheck = check("Ghosts of the other assembly modes", ghosts.shown, (shown) => ghosts.show(shown));
 const letterCheck = check("Letters", true, (shown) => {
@@ -102,14 +98,8 @@ const letterCheck = check("Letters", true, (shown) => {
 const limitCheck = check("Stop at strokes and joint limits", true, (on) => (mechanism.limits = on));
 const view = (name, ...angles) =>
   el("button", { type: "button", class: "plain", onclick: () => stage.look(angles) }, name);
-const views = el(
-  "div",
-  { class: "modes" },
-  view("3-D", ...SPACE),
-  view("Front", -90, 0),
-  view("Side", 0, 0),
-  view("Top", -90, 90),
-);
+const sides = [view("3-D", ...SPACE), view("Front", -90, 0), view("Side", 0, 0), view("Top", -90, 90)];
+const views = el("div", { class: "modes" }, ...sides);
 
 const { element: status, say } = statusLine(mechanism);
 const save = async () => {
@@ -148,7 +138,7 @@ const reset = () => {
   stage.look();
 };
 
-const foot = el("div", { class: "foot" }, readout(mechanism).element, tools);
+const foot = el("div", { class: "foot" }, readout(mechanism), tools);
 place.append(el("div", { class: "over" }, heading(scene), status, foot));
 const side = panel({
   scene,
@@ -210,11 +200,4 @@ stage.before.push(
 );
 stage.invalidate();
 
-window.assur = {
-  toInputs: (printed) => mechanism.toInputs(printed),
-  toPose: (pose) => mechanism.toPose(pose),
-  choose: (index) => mechanism.choose(index),
-  work: (index) => mechanism.work(index),
-  reset: () => mechanism.reset(),
-  state: () => mechanism.state(),
-};
+window.assur = mechanism;

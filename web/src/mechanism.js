@@ -53,11 +53,11 @@ export class Mechanism {
     return this.state();
   }
 
-  /** Takes the assembly modes of a working mode, as they are at home's pose. @param {number} work its index */
+  /** Takes the assembly modes of a working mode, as they are at home's pose. */
   list(work) {
     const found = this.working[work].assembly ?? this.scene.branches.assembly;
     this.lone = this.working[work].lone ?? false;
-    this.assembly = found.map((item) => ({ ...item, values: item.values.slice(), reached: true, fresh: true }));
+    this.assembly = found.map((item) => ({ ...item, reached: true, fresh: true }));
   }
 
   /**
@@ -75,36 +75,35 @@ export class Mechanism {
 
   /** Lets one assembly follow the inputs; whether it is the one in which the mechanism stands. */
   arrives(item) {
-    return (
-      this.same(item.values, this.values) ||
-      (this.brought(item).status === "moved" && this.same(item.values, this.values))
-    );
+    const arrived = () => this.same(item.values, this.values);
+    return arrived() || (this.brought(item).status === "moved" && arrived());
   }
 
   /** Lets one assembly follow the inputs: straight, but round what is in the way when it comes from home's pose. */
   brought(item) {
-    const [inputs, go] = [this.inputs, (values, to) => toInputs(this.model, values, to, { limits: false })];
+    const { model, inputs } = this;
+    const go = (values, to) => toInputs(model, values, to, { limits: false });
+    const start = inputsOf(model, item.values);
     let found = go(item.values, inputs);
-    const start = inputsOf(this.model, item.values);
-    for (const side of item.fresh && found.status !== "moved" ? [AROUND, -AROUND] : []) {
+    for (const side of item.fresh ? [AROUND, -AROUND] : []) {
+      if (found.status === "moved") break;
       // every input by another amount: what is in the way may lie on an axis of symmetry
-      const aside = (k) => (side / (k + 1)) * (this.model.inputs[k].kind === "length" ? this.model.length : 1);
-      const half = go(
-        item.values,
-        inputs.map((value, k) => (start[k] + value) / 2 + aside(k)),
-      );
+      const aside = (k) => (side / (k + 1)) * (model.inputs[k].kind === "length" ? model.length : 1);
+      const half = go(item.values, inputs.map((value, k) => (start[k] + value) / 2 + aside(k)));
       const whole = half.status === "moved" ? go(half.values, inputs) : half;
-      if (whole.status !== "moved") continue;
-      found = whole;
-      break;
+      if (whole.status === "moved") found = whole;
     }
     Object.assign(item, { values: found.values, fresh: false });
     return found;
   }
 
   note({ status, reason }) {
-    this.status = status;
-    this.reason = reason;
+    Object.assign(this, { status, reason });
+  }
+
+  /** Says that a mode is not to be had, where no joint is to blame. */
+  refuse(text) {
+    this.note({ status: "stopped", reason: { kind: "gap", text, joint: "", amount: 0 } });
   }
 
   /** The name of the assembly mode in which it stands; empty where none of those of home's pose leads there. */
@@ -144,16 +143,9 @@ export class Mechanism {
     this.here = index < 0 ? null : index;
     if (index < 0 || !this.settle(index, crossed, hint))
       this.working.some((_, k) => k !== index && this.settle(k, true, hint));
-    this.jump(closed);
-    return true;
-  }
-
-  /** Straight to an assembly that is known. */
-  jump(values) {
-    this.values = values;
     this.note({ status: "moved", reason: null });
     this.changed("mode");
-    return this.state();
+    return true;
   }
 
   moved(found) {
@@ -176,11 +168,7 @@ export class Mechanism {
       this.branch = index;
       this.here = null;
       this.note(found);
-    } else
-      this.note({
-        status: "stopped",
-        reason: { kind: "gap", text: `${item.label} does not exist at these inputs`, joint: "", amount: 0 },
-      });
+    } else this.refuse(`${item.label} does not exist at these inputs`);
     this.changed("mode");
     return this.state();
   }
@@ -195,16 +183,7 @@ export class Mechanism {
       this.here = index;
       this.settle(index, found.crossed);
       this.note(found);
-    } else
-      this.note({
-        status: "stopped",
-        reason: {
-          kind: "gap",
-          text: `${item.label} was not found here: the straight way from home’s pose ends before this one`,
-          joint: "",
-          amount: 0,
-        },
-      });
+    } else this.refuse(`${item.label} was not found here: the straight way from home’s pose ends before this one`);
     this.changed("mode");
     return this.state();
   }
@@ -259,12 +238,10 @@ export class Mechanism {
   /** Factors of the closed form here, in the working mode whose inputs are the present ones. */
   factors() {
     const [pose, inputs] = [this.pose, this.inputs];
-    const away = (found) =>
-      Math.max(...found.inputs.map((value, k) => this.apart(value - inputs[k], this.model.inputs[k])));
-    const found = this.scene.modes.working.all
+    const here = (value, k) => this.apart(value - inputs[k], this.model.inputs[k]) < SAME;
+    return this.scene.modes.working.all
       .map((signs) => this.scene.kernel(pose, this.scene.kernelParameters, signs))
-      .filter((item) => away(item) < SAME);
-    return found.length ? found[0].factors : {};
+      .find((found) => found.inputs.every(here))?.factors;
   }
 
   /** Of two inputs, without dimensions, and without whole turns where these do not count. */
@@ -275,33 +252,33 @@ export class Mechanism {
 
   /** The factor of the closed form that is nearest to zero, as a share of its scale. */
   nearestFactor() {
-    if (!this.scene.kernel) return null;
-    const values = this.factors();
+    const values = this.scene.kernel && this.factors();
+    if (!values) return null;
     const shares = this.scene.factors
       .map(({ name, scale }) => ({ name, value: values[name], share: Math.abs(values[name]) / scale }))
       .filter(({ share }) => Number.isFinite(share));
-    return shares.reduce((least, item) => (!least || item.share < least.share ? item : least), null);
+    return shares.sort((a, b) => a.share - b.share)[0] ?? null;
   }
 
   /** Everything that is known of the present configuration. */
   state() {
-    if (!this.known) {
-      const { parallel, serial } = nearness(this.model, this.values);
-      this.known = {
-        values: this.values.slice(),
-        pose: this.pose,
-        inputs: this.inputs,
-        residual: residual(this.model, this.values),
-        assembly: this.assembly[this.branch]?.label ?? null,
-        status: this.status,
-        reason: this.reason,
-        limits: { stated: limitsOf(this.model).length > 0, exceeded: exceeded(this.model, this.values) },
-        condition: conditionAt(this.model, this.values),
-        smallest: parallel,
-        serial,
-        factor: this.nearestFactor(),
-      };
-    }
+    if (this.known) return this.known;
+    const { model, values, pose, inputs, status, reason } = this;
+    const { parallel, serial } = nearness(model, values);
+    this.known = {
+      values: values.slice(),
+      pose,
+      inputs,
+      residual: residual(model, values),
+      assembly: this.assembly[this.branch]?.label ?? null,
+      status,
+      reason,
+      limits: { stated: limitsOf(model).length > 0, exceeded: exceeded(model, values) },
+      condition: conditionAt(model, values),
+      smallest: parallel,
+      serial,
+      factor: this.nearestFactor(),
+    };
     return this.known;
   }
 }

@@ -17,30 +17,21 @@ function told(item, gone = false) {
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
 export function modeLists(mechanism, ghosts) {
-  const button = (item, k, colour, choose) =>
+  const button = (item, choose, given, ...before) =>
     el(
       "button",
-      {
-        type: "button",
-        class: "mode",
-        "aria-pressed": "false",
-        title: told(item),
-        onclick: choose,
-        ...(colour
-          ? {
-              onpointerenter: () => ghosts.light(k),
-              onpointerleave: () => ghosts.light(-1),
-              onfocus: () => ghosts.light(k),
-              onblur: () => ghosts.light(-1),
-            }
-          : {}),
-      },
-      colour ? el("i", { style: `--colour:${colour}` }) : null,
+      { type: "button", class: "mode", "aria-pressed": "false", title: told(item), onclick: choose, ...given },
+      ...before,
       named(item),
     );
+  const ghost = (item, k) => {
+    const [light, dim] = [() => ghosts.light(k), () => ghosts.light(-1)];
+    const given = { onpointerenter: light, onpointerleave: dim, onfocus: light, onblur: dim };
+    return button(item, () => mechanism.choose(k), given, el("i", { style: `--colour:${COLOURS[k % COLOURS.length]}` }));
+  };
   const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
   const [assembly, working] = [group("Assembly modes"), group("Working modes")];
-  working.append(...mechanism.working.map((item, k) => button(item, k, null, () => mechanism.work(k))));
+  working.append(...mechanism.working.map((item, k) => button(item, () => mechanism.work(k))));
   const note = el("p", { class: "quiet", hidden: true }, "It stands in none of these, which are those of home’s pose.");
   const pressed = (list, current) =>
     [...list.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
@@ -50,9 +41,7 @@ export function modeLists(mechanism, ghosts) {
   const show = () => {
     if (listed !== mechanism.assembly) {
       listed = mechanism.assembly; // of another working mode
-      assembly.replaceChildren(
-        ...listed.map((item, k) => button(item, k, COLOURS[k % COLOURS.length], () => mechanism.choose(k))),
-      );
+      assembly.replaceChildren(...listed.map(ghost));
     }
     lone.hidden = !mechanism.lone;
     pressed(assembly, mechanism.branch);

@@ -11,13 +11,8 @@ const section = (title, note, ...content) =>
 export function check(label, checked, changed, colour) {
   const box = el("input", { type: "checkbox", onchange: () => changed(box.checked) });
   box.checked = checked;
-  return el(
-    "label",
-    { class: "check" },
-    box,
-    colour ? el("i", { style: `--colour:${colour}` }) : null,
-    el("span", {}, minus(label)),
-  );
+  const dye = colour ? el("i", { style: `--colour:${colour}` }) : null;
+  return el("label", { class: "check" }, box, dye, el("span", {}, minus(label)));
 }
 
 /** Whether a check box is on, and how to put it on or off as a hand would. @param {HTMLElement} label of `check` */
@@ -69,9 +64,8 @@ function tabs(pages) {
 
 /** Facts of the topology, errata of the source and its dimensions. */
 function facts(scene) {
-  const meanings = Object.entries(NUMBERS)
-    .filter(([key]) => key !== "factor" || scene.kernel)
-    .map(([, [title, text]]) => ({ title, text }));
+  const said = Object.entries(NUMBERS).filter(([key]) => key !== "factor" || scene.kernel);
+  const meanings = said.map(([, [title, text]]) => ({ title, text }));
   const pair = ({ title, text }) => el("div", {}, el("dt", {}, title), el("dd", {}, minus(text)));
   return [
     scene.facts.length ? section("Topology", "", el("dl", { class: "facts" }, ...scene.facts.map(pair))) : null,

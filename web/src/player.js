@@ -14,7 +14,6 @@ export class Player {
     Object.assign(this, { mechanism, stage, playing: false, time: 0, own: false, known: null });
     this.trail = new Line(new BufferGeometry(), new LineBasicMaterial({ color: "#d55e00", toneMapped: false }));
     this.trail.frustumCulled = false;
-    this.trail.raycast = () => {};
     stage.root.add(this.trail);
     this.choice = el("select", { "aria-label": "Course", onchange: () => this.fresh() });
     this.button = el("button", { type: "button", class: "play", onclick: () => this.toggle() });
@@ -31,13 +30,8 @@ export class Player {
     this.courses = coursesOf(mechanism);
     this.choice.append(...this.courses.map((_, k) => el("option", { value: k })));
     this.named();
-    this.element = el(
-      "div",
-      { class: "player" },
-      this.choice,
-      el("div", { class: "time" }, this.button, this.bar),
-      this.note,
-    );
+    const time = el("div", { class: "time" }, this.button, this.bar);
+    this.element = el("div", { class: "player" }, this.choice, time, this.note);
     this.show();
     this.paint();
     mechanism.listen(() => {
@@ -80,9 +74,8 @@ export class Player {
   /** Follows the chosen course once, if that was not done yet. */
   prepare() {
     if (this.known) return true;
-    const index = Number(this.choice.value);
     this.courses = coursesOf(this.mechanism);
-    const course = this.courses[index];
+    const course = this.courses[Number(this.choice.value)];
     const found = followedCourse(this.mechanism, course);
     if (found.reason) {
       this.tell("why", `It cannot be followed from here: ${minus(found.reason.text)}.`);
@@ -92,20 +85,17 @@ export class Player {
     this.named();
     const [wanted] = course.sizes;
     this.tell("quiet", found.size < wanted ? `${course.amount(wanted)} would be too far from here.` : "");
-    const { model } = this.mechanism;
-    this.trail.geometry.setFromPoints(
-      found.samples.map((values) => new Vector3(...configurationAt(model, values).platform.origin)),
-    );
+    const at = (values) => new Vector3(...configurationAt(this.mechanism.model, values).platform.origin);
+    this.trail.geometry.setFromPoints(found.samples.map(at));
     this.trail.visible = true;
     return true;
   }
 
   /** The time, on its bar. */
   show() {
-    const percent = Math.round(100 * this.time);
     this.bar.value = this.time;
     this.bar.style.setProperty("--share", `${100 * this.time}%`);
-    this.bar.setAttribute("aria-valuetext", `${percent} %`);
+    this.bar.setAttribute("aria-valuetext", `${Math.round(100 * this.time)} %`);
   }
 
   tell(kind, text) {
@@ -114,10 +104,10 @@ export class Player {
   }
 
   seek(t) {
-    const there = this.prepare();
-    this.time = there ? t : 0;
+    const followed = this.prepare();
+    this.time = followed ? t : 0;
     this.show();
-    if (!there) return;
+    if (!followed) return;
     this.own = true;
     this.mechanism.moved(onCourse(this.mechanism, this.known.course, this.known, t));
     this.own = false;

@@ -1,7 +1,9 @@
 /** Live numbers: what the page can say of the present configuration. */
 
 import { el, figures, spelt } from "./dom.js";
+import { NEAR } from "./explain.js";
 import { NearestSingular } from "./solver/distance.js";
+import { isLength } from "./solver/pose.js";
 
 const REST = 120; // milliseconds without motion after which the distance is looked for
 const PORTION = 8; // milliseconds of that at a time, so that the page stays awake
@@ -27,9 +29,6 @@ export const NUMBERS = {
   limits: ["limits", "strokes, limits of joints and cones of the file: which are exceeded here, and by how much"],
 };
 
-/** A factor as a share of its own scale. */
-const signed = ({ value, share }) => Math.sign(value) * share;
-
 const KINDS = { parallel: "parallel", serial: "serial", passive: "a passive leg" };
 
 /**
@@ -44,14 +43,10 @@ export function distanceSaid({ amount, kind }, over, range, unit) {
   return over ? `none seen within ${figures(range, 3)} ${unit}` : "none seen yet";
 }
 
-/**
- * The condition number, with its characteristic length where lengths and angles mix.
- * @param {number} condition
- * @param {{platform: {pose: string[]}, inputs: {kind: string}[], characteristicLength: number, unit: string}} scene
- */
+/** The condition number, with its characteristic length where lengths and angles mix. */
 export function conditionSaid(condition, { platform, inputs, characteristicLength, unit }) {
   const mixed = (kinds) => new Set(kinds).size > 1;
-  const rates = platform.pose.map((name) => ["x", "y", "z"].includes(name));
+  const rates = platform.pose.map(isLength);
   const said = figures(condition, 3);
   if (!mixed(rates) && !mixed(inputs.map(({ kind }) => kind))) return said;
   return `${said}, L = ${figures(characteristicLength, 3)} ${unit}`;
@@ -71,7 +66,7 @@ export function limitsSaid({ stated, exceeded }, { unit, angleUnit }) {
   return `${name} outside by ${figures(by * factor, 3)} ${angle ? angleUnit : unit}${more}`;
 }
 
-/** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
+/** @returns {HTMLElement} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
   const { scene } = mechanism;
   const rows = {};
@@ -93,18 +88,17 @@ export function readout(mechanism) {
   };
   const show = () => {
     const state = mechanism.state();
-    rows.condition.textContent = conditionSaid(state.condition, scene);
-    rows.smallest.textContent = figures(state.smallest, 3);
-    rows.serial.textContent = figures(state.serial, 3);
-    rows.smallest.parentElement.classList.toggle("near", state.smallest < 0.03);
-    rows.serial.parentElement.classList.toggle("near", state.serial < 0.03);
-    rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
-    rows.limits.textContent = limitsSaid(state.limits, scene);
-    rows.limits.parentElement.classList.toggle("near", state.limits.exceeded.length > 0);
-    if (rows.factor)
-      rows.factor.replaceChildren(
-        ...(state.factor ? [spelt(state.factor.name), ` ${figures(signed(state.factor), 3)}`] : ["–"]),
-      );
+    const say = (key, near, ...said) => {
+      rows[key].replaceChildren(...said);
+      rows[key].parentElement.classList.toggle("near", near);
+    };
+    say("condition", false, conditionSaid(state.condition, scene));
+    for (const key of ["smallest", "serial"]) say(key, state[key] < NEAR, figures(state[key], 3));
+    say("residual", false, `${figures(state.residual, 2)} ${scene.unit}`);
+    say("limits", state.limits.exceeded.length > 0, limitsSaid(state.limits, scene));
+    const { name, value, share } = state.factor ?? {}; // signed, as a share of its own scale
+    if (name) say("factor", false, spelt(name), ` ${figures(Math.sign(value) * share, 3)}`);
+    else if (rows.factor) say("factor", false, "–");
     clearTimeout(timer);
     rows.distance.textContent = "…";
     timer = setTimeout(() => {
@@ -114,12 +108,6 @@ export function readout(mechanism) {
   };
   mechanism.listen(show);
   show();
-  return {
-    element: el(
-      "details",
-      { class: "numbers", open: matchMedia("(min-width: 821px)").matches },
-      el("summary", {}, "Numbers"),
-      list,
-    ),
-  };
+  const open = matchMedia("(min-width: 821px)").matches;
+  return el("details", { class: "numbers", open }, el("summary", {}, "Numbers"), list);
 }

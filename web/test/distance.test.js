@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { NearestSingular, nearestSingular } from "../src/solver/distance.js";
+import { NearestSingular } from "../src/solver/distance.js";
 import { regularKinds, toPose } from "../src/solver/motion.js";
 import { poseOf as pose } from "../src/solver/pose.js";
 import { measuresAt } from "../src/solver/rates.js";
 import { MECHANISMS, mechanism } from "./numbers.js";
-import { random } from "./walks.js";
+import { nearestSingular, random } from "./walks.js";
 
 const FREE = { limits: false };
 

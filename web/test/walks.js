@@ -1,6 +1,7 @@
 /** Random walks that end at stops: from there the way back must be free, and the reason that was said must be true. */
 
 import { residual } from "../src/solver/closure.js";
+import { NearestSingular } from "../src/solver/distance.js";
 import { LEAST_STEP, inputsOf, toInputs, toPose } from "../src/solver/motion.js";
 import { isLength, poseOf, poseOfShown, shownPose } from "../src/solver/pose.js";
 import { measuresAt } from "../src/solver/rates.js";
@@ -19,6 +20,13 @@ export function random(seed) {
     t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
     return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
   };
+}
+
+/** The nearest singularity, searched to the end. */
+export function nearestSingular(model, values) {
+  const found = new NearestSingular(model, values);
+  for (const _ of found.search());
+  return found;
 }
 
 /** The two kinds of sliders: what they show, the size of their units, and how they move. */

@@ -12,11 +12,11 @@ import {
 
 const STEPS = 65535;
 
-/** Bytes of a base64 text. */
+/** Of a base64 text. */
 const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
 
 /** Positions of a layer: 0 to 65535 runs from low to high. @returns {Float32Array} */
-export function positions({ vertices, low, high }) {
+function positions({ vertices, low, high }) {
   return Float32Array.from(
     new Uint16Array(bytes(vertices)),
     (value, k) => low[k % 3] + (value / STEPS) * (high[k % 3] - low[k % 3]),
@@ -29,18 +29,9 @@ export function layerOf(layer) {
   geometry.setAttribute("position", new BufferAttribute(positions(layer), 3));
   const faces = bytes(layer.faces);
   geometry.setIndex(new BufferAttribute(layer.wide ? new Uint32Array(faces) : new Uint16Array(faces), 1));
-  const found =
-    layer.primitive === "segments"
-      ? new LineSegments(geometry, new LineBasicMaterial({ color: layer.colour }))
-      : surface(geometry, layer);
-  found.raycast = () => {};
-  return found;
-}
-
-function surface(geometry, { colour, opacity }) {
+  const { colour: color, opacity } = layer;
+  if (layer.primitive === "segments") return new LineSegments(geometry, new LineBasicMaterial({ color }));
   geometry.computeVertexNormals();
-  const look = { color: colour, transparent: true, opacity, side: DoubleSide, depthWrite: false };
-  const mesh = new Mesh(geometry, new MeshLambertMaterial(look));
-  mesh.renderOrder = 4;
-  return mesh;
+  const look = { color, transparent: true, opacity, side: DoubleSide, depthWrite: false };
+  return Object.assign(new Mesh(geometry, new MeshLambertMaterial(look)), { renderOrder: 4 });
 }

@@ -1,6 +1,6 @@
 /** The mechanism's links: one mesh each, placed by the link's frame. Ghosts share the same geometry. */
 
-import { Group, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial } from "three";
+import { Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial } from "three";
 import { configurationAt } from "../solver/configuration.js";
 import { joined } from "./shapes.js";
 
@@ -24,14 +24,8 @@ const steel = () => new MeshStandardMaterial({ vertexColors: true, roughness: 0.
 function ghostMaterials(colour, order) {
   const behind = { polygonOffset: true, polygonOffsetFactor: order, polygonOffsetUnits: 4 * order };
   const depth = new MeshBasicMaterial({ colorWrite: false, ...behind });
-  const tint = new MeshLambertMaterial({
-    color: colour,
-    transparent: true,
-    opacity: 0.3,
-    depthWrite: false,
-    ...behind,
-  });
-  return { depth, tint };
+  const look = { color: colour, transparent: true, opacity: 0.3, depthWrite: false };
+  return { depth, tint: new MeshLambertMaterial({ ...look, ...behind }) };
 }
 
 /**
@@ -41,17 +35,16 @@ function ghostMaterials(colour, order) {
 export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
   const group = new Group();
   const meshes = new Map();
-  const materials = ghost ? ghostMaterials(ghost, behind) : null;
-  const plain = ghost ? null : steel();
+  const { depth, tint } = ghost ? ghostMaterials(ghost, behind) : { tint: steel() };
   for (const [link, geometry] of geometries) {
     if (ghost && link === 0) continue;
-    const mesh = new Mesh(geometry, ghost ? materials.tint : plain);
+    const mesh = new Mesh(geometry, tint);
     mesh.matrixAutoUpdate = false;
     mesh.castShadow = mesh.receiveShadow = !ghost;
     Object.assign(mesh.userData, { link: model.links[link], still: link === 0 });
     if (ghost) {
       mesh.renderOrder = 2;
-      const first = new Mesh(geometry, materials.depth);
+      const first = new Mesh(geometry, depth);
       first.renderOrder = 1;
       first.raycast = () => {};
       mesh.add(first);
@@ -63,14 +56,11 @@ export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
     const { frames } = configurationAt(model, values);
     for (const [link, mesh] of meshes) setFrame(mesh, frames[link]);
   };
-  return { group, place, tint: materials ? materials.tint : plain };
+  return { group, place, tint };
 }
 
 /** Puts an object where a frame is. */
-export function setFrame(object, { turn: r, origin: o }) {
-  object.matrixAutoUpdate = false;
-  object.matrix.copy(
-    new Matrix4().set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1),
-  );
+function setFrame(object, { turn: r, origin: o }) {
+  object.matrix.set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1);
   object.matrixWorldNeedsUpdate = true;
 }

@@ -3,27 +3,18 @@
 import { blamed } from "../solver/motion.js";
 import { configurationAt } from "../solver/configuration.js";
 import { placed } from "../solver/rotation.js";
-import { halo, onScreen, sprite, spriteSize, textureOf, written } from "./letters.js";
+import { drawnSmall, halo, onScreen, paint, resize, sprite, written } from "./sprites.js";
 
 const RING = 34; // pixels
 const NAME = 29;
 const RED = (dark) => (dark ? "#ff8a80" : "#c62828");
 
-function circle(colour, around) {
-  const canvas = Object.assign(document.createElement("canvas"), { width: 96, height: 96 });
-  const context = canvas.getContext("2d");
-  for (const [style, width] of [
-    [around, 16],
-    [colour, 9],
-  ]) {
-    context.strokeStyle = style;
-    context.lineWidth = width;
-    context.beginPath();
+const circle = (colour, around) =>
+  drawnSmall(96, 96, (context) => {
     context.arc(48, 48, 38, 0, 2 * Math.PI);
-    context.stroke();
-  }
-  return canvas;
-}
+    for (const [strokeStyle, lineWidth] of [[around, 16], [colour, 9]])
+      Object.assign(context, { strokeStyle, lineWidth }).stroke();
+  });
 
 export class Marker {
   constructor(model, group) {
@@ -34,11 +25,8 @@ export class Marker {
   }
 
   paint(dark) {
-    this.dark = dark;
-    this.ring.material.map?.dispose();
-    this.ring.material.map = textureOf(circle(RED(dark), halo(dark)));
-    this.ring.material.needsUpdate = true;
-    this.name = null;
+    Object.assign(this, { dark, name: null });
+    paint(this.ring, circle(RED(dark), halo(dark)));
   }
 
   /** @param {import("../solver/motion.js").Reason|null} reason @param {number[]} values */
@@ -48,24 +36,16 @@ export class Marker {
     if (!joint) return;
     const { frames } = configurationAt(this.model, values);
     for (const item of [this.ring, this.label]) item.position.set(...placed(frames[joint.parent], joint.at));
-    if (this.name !== reason.joint) this.write(reason.joint);
-  }
-
-  write(name) {
-    this.name = name;
-    const canvas = written(/^(.*?)(\d*)$/.exec(name).slice(1), RED(this.dark), halo(this.dark));
-    this.label.material.map?.dispose();
-    this.label.material.map = textureOf(canvas);
-    this.label.material.needsUpdate = true;
-    this.shape = canvas.width / canvas.height;
+    if (this.name === reason.joint) return;
+    this.name = reason.joint;
+    paint(this.label, written(/^(.*?)(\d*)$/.exec(this.name).slice(1), RED(this.dark), halo(this.dark)));
   }
 
   /** For a picture of so many pixels, in the group's own scale. @returns {number[][]} the places that it takes */
   arrange(camera, width, height, scale) {
     if (!this.ring.visible) return [];
-    this.ring.scale.setScalar(spriteSize(RING, camera, height, scale));
-    const size = spriteSize(NAME, camera, height, scale);
-    this.label.scale.set(size * this.shape, size, 1);
+    resize(this.ring, RING, camera, height, scale);
+    resize(this.label, NAME, camera, height, scale);
     return [onScreen(this.ring, camera, width, height)];
   }
 }

@@ -59,15 +59,7 @@ function box({ centre, sides }) {
   const [x, y, z] = order.map((k) => ways[k].clone().divideScalar(half[k]));
   if (new Vector3().crossVectors(x, y).dot(z) < 0) z.negate();
   const [a, b, c] = order.map((k) => half[k]);
-  const outline = rounded(
-    [
-      [-a, -b],
-      [a, -b],
-      [a, b],
-      [-a, b],
-    ],
-    0.35 * Math.min(b, c),
-  );
+  const outline = rounded([[-a, -b], [a, -b], [a, b], [-a, b]], 0.35 * Math.min(b, c));
   return placed(prism(outline, 2 * c, c), x, y, z, vector(centre));
 }
 
@@ -81,13 +73,8 @@ function bar({ start, end, normal, radius, thickness }) {
   const outline = new Shape();
   outline.absarc(length / 2, 0, radius, -Math.PI / 2, Math.PI / 2);
   outline.absarc(-length / 2, 0, radius, Math.PI / 2, (3 * Math.PI) / 2);
-  return placed(
-    prism(outline, thickness, thickness),
-    x,
-    new Vector3().crossVectors(z, x),
-    z,
-    a.add(b).multiplyScalar(0.5),
-  );
+  const y = new Vector3().crossVectors(z, x);
+  return placed(prism(outline, thickness, thickness), x, y, z, a.add(b).multiplyScalar(0.5));
 }
 
 function slab({ outline, along }) {
@@ -95,16 +82,9 @@ function slab({ outline, along }) {
   const z = vector(along);
   const thickness = z.length();
   z.divideScalar(thickness);
-  const origin = corners[0].clone();
   const [x, y] = across(z);
-  const flat = corners.map((corner) => [corner.clone().sub(origin).dot(x), corner.clone().sub(origin).dot(y)]);
-  return placed(
-    prism(rounded(flat, 1.2 * thickness), thickness, thickness),
-    x,
-    y,
-    z,
-    origin.addScaledVector(z, thickness / 2),
-  );
+  const flat = rounded(corners.map((corner) => [corner.dot(x), corner.dot(y)]), 1.2 * thickness);
+  return placed(prism(flat, thickness, thickness), x, y, z, z.clone().multiplyScalar(corners[0].dot(z) + thickness / 2));
 }
 
 /** A convex polygon with rounded corners. */
@@ -131,7 +111,7 @@ function towards(from, to, distance) {
 const SOLIDS = { ball, cylinder, box, bar, slab };
 
 /** @returns {import("three").BufferGeometry} positions, normals and one colour of a part, in its link's frame */
-export function solid({ shape, colour }) {
+function solid({ shape, colour }) {
   const geometry = SOLIDS[shape.kind](shape);
   geometry.deleteAttribute("uv");
   const { r, g, b } = new Color(colour);

@@ -2,7 +2,6 @@
 
 import {
   Box3,
-  CanvasTexture,
   DirectionalLight,
   Group,
   HemisphereLight,
@@ -13,12 +12,12 @@ import {
   PlaneGeometry,
   Scene,
   ShadowMaterial,
-  SRGBColorSpace,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { Camera } from "./camera.js";
 import { outline } from "./outline.js";
+import { drawn } from "./sprites.js";
 
 /** Azimuth and elevation of the usual view, in degrees. */
 export const SPACE = [-52, 24];
@@ -90,15 +89,8 @@ export class Stage {
     const radius = seen.getSize(new Vector3()).length() / 2;
     this.sun.position.copy(centre).add(new Vector3(-0.55, -0.75, 1.5).multiplyScalar(2.2 * radius));
     this.sun.target.position.copy(centre);
-    const reach = 1.5 * radius;
-    Object.assign(this.sun.shadow.camera, {
-      left: -reach,
-      right: reach,
-      bottom: -reach,
-      top: reach,
-      near: 0.1,
-      far: 9 * radius,
-    });
+    const [low, high] = [-1.5 * radius, 1.5 * radius];
+    Object.assign(this.sun.shadow.camera, { left: low, right: high, bottom: low, top: high, near: 0.1, far: 9 * radius });
     this.sun.shadow.camera.updateProjectionMatrix();
     this.renderer.shadowMap.needsUpdate = true;
     return { centre, radius };
@@ -208,54 +200,38 @@ export class Stage {
   }
 }
 
-
 /** Whether there is no graphics card, and pictures must be cheap. */
 function drawnByProcessor(context) {
   const info = context.getExtension("WEBGL_debug_renderer_info");
-  return /swiftshader|llvmpipe|software|basic render/i.test(
-    info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "",
-  );
+  const name = info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
-function gradient({ top, bottom }) {
-  const canvas = Object.assign(document.createElement("canvas"), { width: 2, height: 256 });
-  const context = canvas.getContext("2d");
-  const fill = context.createLinearGradient(0, 0, 0, 256);
-  fill.addColorStop(0, top);
-  fill.addColorStop(1, bottom);
-  context.fillStyle = fill;
-  context.fillRect(0, 0, 2, 256);
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  return texture;
-}
+const gradient = ({ top, bottom }) =>
+  drawn(2, 256, (context) => {
+    context.fillStyle = context.createLinearGradient(0, 0, 0, 256);
+    context.fillStyle.addColorStop(0, top);
+    context.fillStyle.addColorStop(1, bottom);
+    context.fillRect(0, 0, 2, 256);
+  });
 
 /** Thin lines that fade away from the middle. */
 function grid(colour, anisotropy) {
   const size = 1024;
-  const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
-  const context = canvas.getContext("2d");
-  context.strokeStyle = colour;
-  context.lineWidth = 1.5;
-  for (let k = 1; k < 36; k++) {
-    const at = (k * size) / 36;
-    context.globalAlpha = k % 3 === 0 ? 1 : 0.45;
-    context.beginPath();
-    context.moveTo(at, 0);
-    context.lineTo(at, size);
-    context.moveTo(0, at);
-    context.lineTo(size, at);
-    context.stroke();
-  }
-  context.globalAlpha = 1;
-  context.globalCompositeOperation = "destination-in";
-  const fade = context.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
-  fade.addColorStop(0.1, "rgba(0,0,0,1)");
-  fade.addColorStop(0.85, "rgba(0,0,0,0)");
-  context.fillStyle = fade;
-  context.fillRect(0, 0, size, size);
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = anisotropy;
-  return texture;
+  const draw = (context) => {
+    context.fillStyle = colour;
+    for (let k = 1; k < 36; k++) {
+      const at = (k * size) / 36 - 0.75;
+      context.globalAlpha = k % 3 === 0 ? 1 : 0.45;
+      context.fillRect(at, 0, 1.5, size);
+      context.fillRect(0, at, size, 1.5);
+    }
+    context.globalAlpha = 1;
+    context.globalCompositeOperation = "destination-in";
+    context.fillStyle = context.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
+    context.fillStyle.addColorStop(0.1, "rgba(0,0,0,1)");
+    context.fillStyle.addColorStop(0.85, "rgba(0,0,0,0)");
+    context.fillRect(0, 0, size, size);
+  };
+  return drawn(size, size, draw, { anisotropy });
 }

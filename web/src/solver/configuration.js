@@ -46,7 +46,7 @@ export function modelOf(scene) {
     count: scene.home.length,
     length,
     scale,
-    units: coordinates.map((item, k) => item.size ?? scale[k]),
+    units: coordinates.map(({ size }) => size),
     coordinates,
     inputs: scene.inputs,
     unit: scene.unit,
@@ -68,7 +68,6 @@ function stateOf(model, values) {
  * It is written row by row into one list, in the order of `assur.page.configuration.matrices`.
  */
 class Configuration {
-  /** @param {Model} model @param {number[]} values */
   constructor(model, values) {
     const [loops, count, links] = [model.cut.length, model.count, model.links.length];
     const sizes = { gap: 12 * loops, derivative: 6 * loops * count, platform: 12, move: 6 * count, frame: 12 * links };
@@ -112,5 +111,11 @@ class Configuration {
 
 const frameOf = (row) => ({ turn: row.subarray(0, 9), origin: row.subarray(9) });
 
-/** @param {Model} model @param {number[]} values @returns {Configuration} */
+/** @returns {Configuration} */
 export const configurationAt = (model, values) => new Configuration(model, values);
+
+/** What a function says of a model, worked out once. */
+export function once(call) {
+  const known = new WeakMap();
+  return (model) => known.get(model) ?? known.set(model, call(model)).get(model);
+}

@@ -5,6 +5,7 @@
  * missed. Beyond a ray's end the mechanism cannot go on in its mode, whatever its measures say.
  */
 
+import { dot } from "./leastsquares.js";
 import { regularKinds } from "./motion.js";
 import { nearAssembly } from "./newton.js";
 import { isLength, poseOf } from "./pose.js";
@@ -18,7 +19,6 @@ const HALVES = 6; // of Newton's step that leads out of reach
 const STEPS = 30;
 const SETTLED = 1e-3; // of the distance: steps that are shorter end the search, and what is left is that little
 
-const dot = (a, b) => a.reduce((total, value, k) => total + value * b[k], 0);
 const minus = (a, b) => a.map((value, k) => value - b[k]);
 
 /** What vanishes: the parallel measure with its sign, which it changes; the others squared, for they fall to zero like a
@@ -59,9 +59,9 @@ export class NearestSingular {
 
   /** A place a little beside the start: from a pose of symmetry the steepest way may lead to where two legs end at once. */
   aside() {
-    const pose = this.start.pose.slice();
-    this.lengths.forEach((index, j) => (pose[index] += ASIDE * 0.6 ** j * this.model.length));
-    return reached(this.model, this.start, pose) ?? this.start;
+    const { model, start, lengths } = this;
+    const step = lengths.map((_, j) => 0.6 ** j);
+    return reached(model, start, shifted(start.pose, lengths, step, ASIDE * model.length)) ?? start;
   }
 
   /** How far a pose is from where the search began, in the coordinates that are lengths. */
@@ -81,22 +81,18 @@ export class NearestSingular {
     let [last, inner, away, step] = [start, start, 0, LONGEST * model.length];
     while (away < end) {
       const next = Math.min(end, away + step);
-      const pose = start.pose.slice();
-      lengths.forEach((index, j) => (pose[index] += next * way[j]));
+      const pose = shifted(start.pose, lengths, way, next);
       const there = reached(model, last, pose);
       yield;
       if (there?.sense > 0) {
         if (next - this.away(inner.pose) > LONGEST * model.length) inner = last;
         [last, away, step] = [there, next, Math.min(2 * step, LONGEST * model.length)];
-        continue;
+      } else if (step > LEAST * model.length) step /= 2;
+      else {
+        const kind = there ? "parallel" : this.least(last);
+        this.take(next, kind, pose);
+        return { inner, kind };
       }
-      if (step > LEAST * model.length) {
-        step /= 2;
-        continue;
-      }
-      const kind = there ? "parallel" : this.least(last);
-      this.take(next, kind, pose);
-      return { inner, kind };
     }
     return null;
   }
@@ -139,14 +135,6 @@ export class NearestSingular {
   }
 }
 
-/** The whole search at once. @returns {NearestSingular} */
-export function nearestSingular(model, values) {
-  const found = new NearestSingular(model, values);
-  const search = found.search();
-  while (!search.next().done);
-  return found;
-}
-
 /** Unit vectors along axes and diagonals. */
 function directions(count) {
   const longer = (ways) => ways.flatMap((way) => [-1, 0, 1].map((item) => [...way, item]));
@@ -157,12 +145,17 @@ function directions(count) {
 /** The mechanism a share of a step further, or less of it where that is out of reach; null where no part is. */
 function moved(model, at, lengths, step, share) {
   for (let k = 0; k < HALVES; k++, share /= 2) {
-    const pose = at.pose.slice();
-    lengths.forEach((index, j) => (pose[index] += share * step[j]));
-    const there = reached(model, at, pose);
+    const there = reached(model, at, shifted(at.pose, lengths, step, share));
     if (there) return there;
   }
   return null;
+}
+
+/** A pose with its lengths changed by so much of a step. */
+function shifted(pose, lengths, step, share) {
+  const found = pose.slice();
+  lengths.forEach((index, j) => (found[index] += share * step[j]));
+  return found;
 }
 
 /** The assembly at a pose near by, and whether its parallel measure has the sign of the start's. */
@@ -177,7 +170,7 @@ function reached(model, at, pose) {
 function slopeBy(model, at, index, measure) {
   for (const shift of SHIFTS.map((part) => part * model.length)) {
     const [ahead, behind] = [shift, -shift].map((amount) =>
-      reached(model, at, at.pose.map((value, k) => (k === index ? value + amount : value))),
+      reached(model, at, shifted(at.pose, [index], [1], amount)),
     );
     if (ahead || behind) return (measure(ahead ?? at) - measure(behind ?? at)) / (ahead && behind ? 2 * shift : shift);
   }

@@ -1,28 +1,34 @@
 /** Least squares and null spaces by Householder's reflections, singular values by Jacobi's rotations. That is all. */
 
+const DEPENDENT = 1e-9; // share of the largest pivot below which a row adds nothing
+
 /**
- * The x that makes |A x - b|^2 + (damping |x|)^2 least, for several right sides at once.
+ * The x that makes |A x - b|^2 + (damping |x|)^2 least.
  *
  * With little damping this is the least-squares solution of smallest length: redundant rows and free motions do no harm.
  * @param {ArrayLike<number>[]} matrix m rows of n numbers
- * @param {ArrayLike<number>[]} right columns of m numbers each
- * @param {number} damping
- * @returns {Float64Array[]} for each column n numbers
+ * @param {ArrayLike<number>} right m numbers
+ * @returns {Float64Array} n numbers
  */
 export function leastSquares(matrix, right, damping) {
   const m = matrix.length;
   const n = matrix[0].length;
   const rows = m + n;
-  const width = n + right.length;
-  // columns in one piece: the matrix over `damping` times the identity, then the right sides over zeros
-  const work = Array.from({ length: width }, () => new Float64Array(rows));
+  // columns in one piece: the matrix over `damping` times the identity, then the right side over zeros
+  const work = Array.from({ length: n + 1 }, () => new Float64Array(rows));
   for (let i = 0; i < m; i++) {
     for (let j = 0; j < n; j++) work[j][i] = matrix[i][j];
-    for (let j = 0; j < right.length; j++) work[n + j][i] = right[j][i];
+    work[n][i] = right[i];
   }
   for (let j = 0; j < n; j++) work[j][m + j] = damping;
   for (let k = 0; k < n; k++) reflect(work, k, Math.min(rows, m + k + 1));
-  return right.map((_, j) => backSubstituted(work, work[n + j], n));
+  const x = new Float64Array(n);
+  for (let k = n - 1; k >= 0; k--) {
+    let sum = work[n][k];
+    for (let j = k + 1; j < n; j++) sum -= work[j][k] * x[j];
+    x[k] = work[k][k] === 0 ? 0 : sum / work[k][k];
+  }
+  return x;
 }
 
 /** Makes column k zero below its diagonal by a reflection; below `end` the column is zero already. */
@@ -48,34 +54,22 @@ function reflect(work, k, end) {
   column[k] = diagonal;
 }
 
-function backSubstituted(work, column, n) {
-  const x = new Float64Array(n);
-  for (let k = n - 1; k >= 0; k--) {
-    let sum = column[k];
-    for (let j = k + 1; j < n; j++) sum -= work[j][k] * x[j];
-    x[k] = work[k][k] === 0 ? 0 : sum / work[k][k];
-  }
-  return x;
-}
-
 /**
  * An orthonormal basis of what a matrix takes to zero, by reflections of its transpose, the longest column first.
  * @param {ArrayLike<number>[]} matrix m rows of n numbers
- * @param {number} n
- * @param {number} tolerance share of the largest pivot below which a row adds nothing
  * @returns {Float64Array[]} n - rank vectors of n numbers
  */
-export function nullSpace(matrix, n, tolerance = 1e-9) {
+export function nullSpace(matrix, n) {
   const m = matrix.length;
   // the rows of the matrix, then the rows of an identity, which become the basis
   const work = [...matrix.map((row) => Float64Array.from(row)), ...Array.from({ length: n }, (_, i) => unit(n, i))];
   let rank = 0;
   let first = 0;
   for (; rank < Math.min(m, n); rank++) {
-    const left = work.slice(rank, m).map((row) => tail(row, rank));
+    const left = work.slice(rank, m).map((row) => norm(row.subarray(rank)));
     const pivot = left.reduce((best, size, i) => (size > left[best] ? i : best), 0);
     first ||= left[pivot];
-    if (!(left[pivot] > tolerance * first)) break;
+    if (!(left[pivot] > DEPENDENT * first)) break;
     [work[rank], work[rank + pivot]] = [work[rank + pivot], work[rank]];
     reflect(work, rank, n);
   }
@@ -89,23 +83,8 @@ function unit(n, i) {
   return found;
 }
 
-/** The n columns of a matrix. @param {ArrayLike<number>[]} matrix @returns {Float64Array[]} */
-function transposed(matrix, n) {
-  const columns = [];
-  for (let j = 0; j < n; j++) {
-    const column = new Float64Array(matrix.length);
-    for (let i = 0; i < matrix.length; i++) column[i] = matrix[i][j];
-    columns.push(column);
-  }
-  return columns;
-}
-
-/** Length of a row from its k-th number on. */
-function tail(row, k) {
-  let sum = 0;
-  for (let i = k; i < row.length; i++) sum += row[i] * row[i];
-  return Math.sqrt(sum);
-}
+/** The n columns of a matrix. */
+const transposed = (matrix, n) => Array.from({ length: n }, (_, j) => new Float64Array(matrix.map((row) => row[j])));
 
 /**
  * Singular values, largest first, with the left and right vectors that belong to them (one-sided Jacobi).
@@ -121,7 +100,7 @@ export function singular(matrix) {
     for (let p = 0; p < n - 1; p++) for (let q = p + 1; q < n; q++) moved = rotated(columns, right, p, q) || moved;
     if (!moved) break;
   }
-  const sizes = columns.map((column) => Math.sqrt(dot(column, column)));
+  const sizes = columns.map(norm);
   const order = sizes.map((_, k) => k).sort((a, b) => sizes[b] - sizes[a]);
   return {
     values: order.map((k) => sizes[k]),
@@ -152,30 +131,17 @@ function turn(first, second, cosine, sine) {
   }
 }
 
-function dot(a, b) {
+export function dot(a, b) {
   let sum = 0;
   for (let i = 0; i < a.length; i++) sum += a[i] * b[i];
   return sum;
 }
 
-/** Determinant of a small square matrix, by elimination with pivots. @param {number[][]} matrix @returns {number} */
+const norm = (a) => Math.sqrt(dot(a, a));
+
+/** Determinant of a square matrix: every reflection turns its sign. @param {number[][]} matrix @returns {number} */
 export function determinant(matrix) {
-  const work = matrix.map((row) => Array.from(row));
-  let result = 1;
-  for (let k = 0; k < work.length; k++) {
-    const pivot = work
-      .slice(k)
-      .reduce((best, row, i) => (Math.abs(row[k]) > Math.abs(work[best][k]) ? k + i : best), k);
-    if (work[pivot][k] === 0) return 0;
-    if (pivot !== k) {
-      [work[k], work[pivot]] = [work[pivot], work[k]];
-      result = -result;
-    }
-    result *= work[k][k];
-    for (let i = k + 1; i < work.length; i++) {
-      const share = work[i][k] / work[k][k];
-      for (let j = k; j < work.length; j++) work[i][j] -= share * work[k][j];
-    }
-  }
-  return result;
+  const work = matrix.map((row) => new Float64Array(row));
+  work.forEach((_, k) => reflect(work, k, work.length));
+  return work.reduce((product, column, k) => -product * column[k], 1);
 }

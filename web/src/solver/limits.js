@@ -23,7 +23,7 @@ export function limitsOf(model) {
     if (stroke) add("stroke", name, kind !== "length", kind !== "length" && !counted, stroke, (v) => sign * v[index] + offset);
   for (const joint of model.joints) {
     if (typeof joint.cone === "number") add("limit", joint.name, true, false, [null, joint.cone], (v) => tilt(joint, v));
-    (joint.limits || []).forEach((limit, k) => {
+    joint.limits.forEach((limit, k) => {
       const index = joint.first + k;
       const { kind, counted } = model.coordinates[index];
       if (limit) add("limit", joint.name, kind !== "length", kind !== "length" && !counted, limit, (v) => v[index]);

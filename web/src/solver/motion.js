@@ -7,6 +7,7 @@
  */
 
 import { largestGap } from "./closure.js";
+import { once } from "./configuration.js";
 import { limitsOf } from "./limits.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
@@ -100,15 +101,9 @@ function followed(model, start, attempt, ask, { side, limits = true, through = f
       [step, reason] = [step * Math.min(2, (AIM * FURTHEST) / long), null];
     }
   }
-  if (share >= 1) return { values, status: "moved", reason: null, share: 1, crossed, turned };
-  return {
-    values,
-    status: "stopped",
-    reason: reason.kind ? reason : why(model, values, here, reason.passed, ask, side),
-    share,
-    crossed,
-    turned,
-  };
+  if (share >= 1) return { values, status: "moved", reason: null, share, crossed, turned };
+  if (!reason.kind) reason = why(model, values, here, reason.passed, ask, side);
+  return { values, status: "stopped", reason, share, crossed, turned };
 }
 
 /** How far the joint that moves most goes, without dimensions. */
@@ -116,17 +111,10 @@ const longest = (model, from, to) =>
   to.reduce((most, value, k) => Math.max(most, Math.abs(value - from[k]) / model.scale[k]), 0);
 
 /** The singularities that change a mode: those that home does not have, as one that has them has them everywhere. */
-export function regularKinds(model) {
-  if (!regular.has(model)) {
-    const home = measuresAt(model, model.home);
-    regular.set(
-      model,
-      ["parallel", "serial", "passive"].filter((kind) => home[kind] > FLOOR),
-    );
-  }
-  return regular.get(model);
-}
-const regular = new WeakMap();
+export const regularKinds = once((model) => {
+  const home = measuresAt(model, model.home);
+  return ["parallel", "serial", "passive"].filter((kind) => home[kind] > FLOOR);
+});
 
 /** Whether a singularity may lie between two assemblies, or at the second one, or too near to it. */
 const passed = (here, there, kind) =>
@@ -138,26 +126,21 @@ const passed = (here, there, kind) =>
 function why(model, values, measured, crossed, ask, side) {
   const parallel = crossed === "parallel" || (side === "inputs" && measured.parallel < NEAR);
   const held = "parallel singularity: the inputs no longer hold the platform";
-  if (parallel && side === "pose") return { kind: "singular", text: held, joint: "", amount: 0 };
-  const closest = ask(values);
-  const { amount, joint } = largestGap(model, closest);
+  const singular = (text, joint, amount) => ({ kind: "singular", text, joint, amount });
+  if (parallel && side === "pose") return singular(held, "", 0);
+  const { amount, joint } = largestGap(model, ask(values));
   const open = amount > ALMOST * model.length ? `open by ${said(amount)} ${model.unit}` : "";
-  if (parallel) {
-    const text = open ? `${held} (beyond it the loop of ${joint} stays ${open})` : held;
-    return { kind: "singular", text, joint: open ? joint : "", amount };
-  }
+  if (parallel && !open) return singular(held, "", amount);
+  if (parallel) return singular(`${held} (beyond it the loop of ${joint} stays ${open})`, joint, amount);
   if (open) return { kind: "gap", text: `out of reach: the loop of ${joint} would stay ${open}`, joint, amount };
-  if (measured.passive < measured.serial) {
-    const { name } = looseJoint(model, values);
-    return { kind: "singular", text: `the leg of ${name} is stretched or folded and cannot go on`, joint: name, amount };
-  }
-  const { name } = model.inputs[looseInput(measured)];
-  const text = `serial singularity: the leg of ${name} cannot follow in this working mode`;
-  return { kind: "singular", text, joint: name, amount };
+  const passive = measured.passive < measured.serial;
+  const { name } = passive ? looseJoint(model, values) : model.inputs[looseInput(measured)];
+  if (passive) return singular(`the leg of ${name} is stretched or folded and cannot go on`, name, amount);
+  return singular(`serial singularity: the leg of ${name} cannot follow in this working mode`, name, amount);
 }
 
-/** A number as a person reads it, three figures. @param {number} value */
-export const said = (value) => (value === 0 ? "0" : String(Number(value.toPrecision(value >= 1000 ? 4 : 3))));
+/** A number as a person reads it, three figures. */
+const said = (value) => (value === 0 ? "0" : String(Number(value.toPrecision(value >= 1000 ? 4 : 3))));
 
 /** Strokes and joint limits, each with its margin (negative outside); what is outside at the start may not get worse. */
 function guardsOf(model, start) {

@@ -21,64 +21,50 @@ const TURNS = ["wx", "wy", "wz"];
 const LEAST_COSINE = 1e-12;
 const UPRIGHT = 1e-9; // cosine of theta below which phi is rounding: loops close to so much
 
-/** @param {string} name */
+const NAMES = [...LENGTHS, ...ANGLES, ...QUATERNION];
+const RATES = [...LENGTHS, ...ANGLES, ...TURNS];
+
 export const isLength = (name) => LENGTHS.includes(name);
 
 /** Whether a pose tells phi, theta and psi. @param {string[]} pose */
 export const hasAngles = (pose) => ANGLES.every((name) => pose.includes(name));
 
+const hasQuaternion = (pose) => pose.includes("qw");
+
 /**
  * Names of the velocity's parts: the coordinates', but wx, wy, wz for a pose that tells the whole orientation, as phi and
  * psi have no rates of their own where theta is a right angle. @param {string[]} pose
  */
-export const rateNames = (pose) => (pose.includes("qw") || hasAngles(pose) ? [...pose.filter(isLength), ...TURNS] : pose);
+export const rateNames = (pose) => (hasQuaternion(pose) || hasAngles(pose) ? [...pose.filter(isLength), ...TURNS] : pose);
 
 /** @returns {number[]} the pose, in lengths and rad, as the scene names it */
-export function poseOf(model, values) {
-  const { turn, origin: point } = configurationAt(model, values).platform;
-  const angles = toAngles(turn);
-  const quaternion = model.pose.includes("qw") ? toQuaternion(turn) : [];
-  return model.pose.map((name) =>
-    isLength(name)
-      ? point[LENGTHS.indexOf(name)]
-      : ANGLES.includes(name)
-        ? angles[ANGLES.indexOf(name)]
-        : quaternion[QUATERNION.indexOf(name)],
-  );
+export const poseOf = (model, values) => poseAt(model, configurationAt(model, values));
+
+function poseAt(model, { platform: { turn, origin } }) {
+  const numbers = [...origin, ...toAngles(turn), ...toQuaternion(turn)];
+  return model.pose.map((name) => numbers[NAMES.indexOf(name)]);
 }
 
 const part = (model, pose, names) => names.map((name) => pose[model.pose.indexOf(name)]);
 
 /** The orientation that a pose tells, as nine numbers. @returns {number[]} */
 export const turnOfPose = (model, pose) =>
-  model.pose.includes("qw") ? fromQuaternion(part(model, pose, QUATERNION)) : fromAngles(...part(model, pose, ANGLES));
+  hasQuaternion(model.pose) ? fromQuaternion(part(model, pose, QUATERNION)) : fromAngles(...part(model, pose, ANGLES));
 
 /** How far the platform is from a pose: lengths, and rotations times the model's length. @returns {number[]} */
 export function poseError(model, at, wanted) {
-  const { turn, origin: point } = at.platform;
-  const whole = rateNames(model.pose) !== model.pose;
-  const angles = toAngles(turn);
-  const rows = [];
-  model.pose.forEach((name, k) => {
-    if (isLength(name)) rows.push(point[LENGTHS.indexOf(name)] - wanted[k]);
-    else if (!whole) rows.push(model.length * nearestTurn(angles[ANGLES.indexOf(name)] - wanted[k]));
-  });
-  if (whole)
-    rows.push(...times(model.length, toVector(multiply(turn, transpose(turnOfPose(model, wanted))))));
-  return rows;
+  const { pose, length } = model;
+  const change = poseAt(model, at).map((value, k) => value - wanted[k]);
+  if (rateNames(pose) === pose) return change.map((value, k) => (isLength(pose[k]) ? value : length * nearestTurn(value)));
+  const turn = toVector(multiply(at.platform.turn, transpose(turnOfPose(model, wanted))));
+  return [...change.filter((_, k) => isLength(pose[k])), ...times(length, turn)];
 }
 
 /** Rates of the pose per rate of each joint value, rows as names have it. @returns {ArrayLike<number>[]} rows of n numbers */
 export function poseRates({ platform, moves }, names) {
   const [spins, velocities] = [moves.slice(0, 3), moves.slice(3)];
-  const angles = names.some((name) => ANGLES.includes(name)) ? angleRates(platform.turn, spins) : null;
-  return names.map((name) =>
-    isLength(name)
-      ? velocities[LENGTHS.indexOf(name)]
-      : name[0] === "w"
-        ? spins[TURNS.indexOf(name)]
-        : angles[ANGLES.indexOf(name)],
-  );
+  const rows = [...velocities, ...angleRates(platform.turn, spins), ...spins];
+  return names.map((name) => rows[RATES.indexOf(name)]);
 }
 
 /** Rates of phi, theta and psi of angular velocities, each a row. */
@@ -110,30 +96,31 @@ export function between(model, from, to) {
   const change = model.pose.map((name, k) =>
     ANGLES.includes(name) ? nearestTurn(end[k] - start[k]) : end[k] - start[k],
   );
-  if (!model.pose.includes("qw")) return (t) => start.map((value, k) => value + t * change[k]);
+  const place = (t) => start.map((value, k) => value + t * change[k]);
+  if (!hasQuaternion(model.pose)) return place;
   const first = turnOfPose(model, start);
   const turn = toVector(multiply(turnOfPose(model, end), transpose(first)));
-  return (t) => {
-    const quaternion = toQuaternion(multiply(fromVector(times(t, turn)), first));
-    return model.pose.map((name, k) =>
-      QUATERNION.includes(name) ? quaternion[QUATERNION.indexOf(name)] : start[k] + t * change[k],
-    );
-  };
+  return (t) => withQuaternion(model, place(t), multiply(fromVector(times(t, turn)), first));
+}
+
+/** A pose whose quaternion is that of an orientation. */
+function withQuaternion(model, pose, turn) {
+  const quaternion = toQuaternion(turn);
+  return model.pose.map((name, k) => (isLength(name) ? pose[k] : quaternion[QUATERNION.indexOf(name)]));
 }
 
 /** A pose as sliders show it: a quaternion as phi, theta, psi. @returns {{names: string[], values: number[]}} */
 export function shownPose(model, pose) {
-  if (!model.pose.includes("qw")) return { names: model.pose, values: pose };
-  const kept = model.pose.flatMap((name, k) => (QUATERNION.includes(name) ? [] : [[name, pose[k]]]));
+  if (!hasQuaternion(model.pose)) return { names: model.pose, values: pose };
+  const lengths = model.pose.filter(isLength);
   const angles = toAngles(turnOfPose(model, pose));
-  return { names: [...kept.map(([name]) => name), ...ANGLES], values: [...kept.map(([, value]) => value), ...angles] };
+  return { names: [...lengths, ...ANGLES], values: [...part(model, pose, lengths), ...angles] };
 }
 
 /** The pose of what sliders show. @param {number[]} shown @returns {number[]} */
 export function poseOfShown(model, shown) {
-  if (!model.pose.includes("qw")) return shown;
-  const count = shown.length - 3;
-  const quaternion = toQuaternion(fromAngles(...shown.slice(count)));
-  const lengths = shown.slice(0, count);
-  return model.pose.map((name) => (QUATERNION.includes(name) ? quaternion[QUATERNION.indexOf(name)] : lengths.shift()));
+  if (!hasQuaternion(model.pose)) return shown;
+  const lengths = shown.slice(0, -3);
+  const pose = model.pose.map((name) => (isLength(name) ? lengths.shift() : 0));
+  return withQuaternion(model, pose, fromAngles(...shown.slice(-3)));
 }

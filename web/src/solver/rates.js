@@ -1,12 +1,11 @@
 /** First-order numbers: how inputs move the pose, and how near that is to singular. */
 
 import { closureRows, scaledPoseRates } from "./closure.js";
-import { configurationAt } from "./configuration.js";
+import { configurationAt, once } from "./configuration.js";
 import { determinant, nullSpace, singular } from "./leastsquares.js";
-import { hasAngles, rateNames } from "./pose.js";
+import { hasAngles } from "./pose.js";
 
-/** A measure below this is 0: rounding alone leaves some 1e-14. */
-export const ZERO = 1e-12;
+const ZERO = 1e-12; // a measure below this is 0: rounding alone leaves some 1e-14
 const RANK = 1e-8; // motions that move neither pose nor inputs by more stand still
 const BEND = 4; // a way of tangents bends away from its chord by at most so many squares of its length
 const SHARES = [0.5, 0.25, 0.75, 0.125, 0.875]; // of a step, where its chord is looked at
@@ -26,14 +25,10 @@ function pairsAt(model, values, names) {
 const ranked = (sizes) => sizes.filter((size) => size > RANK * Math.max(1, sizes[0])).length;
 
 /** How many pairs the loops allow at home: one fewer is a singularity. */
-function pairsAtHome(model) {
-  if (!counts.has(model)) {
-    const { pairs } = pairsAt(model, model.home);
-    counts.set(model, pairs.length ? ranked(singular(pairs).values) : 0);
-  }
-  return counts.get(model);
-}
-const counts = new WeakMap();
+const pairsAtHome = once((model) => {
+  const { pairs } = pairsAt(model, model.home);
+  return pairs.length ? ranked(singular(pairs).values) : 0;
+});
 
 /**
  * All motions at an assembly: an orthonormal basis of the pairs (rates of the pose, rates of the inputs) that its
@@ -45,7 +40,7 @@ const counts = new WeakMap();
  * @param {string[]} [names] of the rates of the pose, those of `rateNames` if none are given
  * @returns {Motions}
  */
-export function motionsAt(model, values, names) {
+function motionsAt(model, values, names) {
   const { free, rows, pairs } = pairsAt(model, values, names);
   if (!pairs.length) return { pose: [], inputs: [], joints: [], pairs: [], passive: 0 };
   const { values: sizes, left, right } = singular(pairs);
@@ -66,20 +61,13 @@ const sum = (items, term) => items.reduce((total, item, k) => total + term(item,
  * What the motions say of singularities. Where Jp v = Jq qdot, their singular values are those of Jp and Jq of
  * orthonormal relations; s/c of the two are those of the map from the inputs' rates to the pose's.
  * @param {Motions} motions
- * @returns {{condition: number, parallel: number, serial: number, sign: number}} sign: of the map's determinant, 0 if
- * it is not square
  */
-export function measures({ pose, inputs }) {
-  if (!inputs[0]?.length) return { condition: Infinity, parallel: 0, serial: 0, sign: 0 };
+function measures({ pose, inputs }) {
+  if (!inputs[0]?.length) return { condition: Infinity, parallel: 0, serial: 0 };
   const [held, moved] = [inputs, pose].map(sizes);
   const [parallel, serial] = [held.at(-1), moved.at(-1)];
-  const square = inputs.length === inputs[0].length && pose.length === inputs.length;
-  return {
-    condition: parallel > 0 && serial > 0 ? (moved[0] / parallel) * (held[0] / serial) : Infinity,
-    parallel,
-    serial,
-    sign: square ? Math.sign(determinant(pose)) * Math.sign(determinant(inputs)) : 0,
-  };
+  const condition = parallel > 0 && serial > 0 ? (moved[0] / parallel) * (held[0] / serial) : Infinity;
+  return { condition, parallel, serial };
 }
 
 /** Singular values of rows of r numbers, r of them; rounding is 0. */
@@ -100,19 +88,16 @@ export function measuresAt(model, values) {
  * them: what Python calls that of J. A right angle of theta leaves it without bound.
  * @returns {number}
  */
-export const conditionAt = (model, values) => measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : rateNames(model.pose))).condition;
+export const conditionAt = (model, values) =>
+  measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : undefined)).condition;
 
 /**
  * How near joint values are to a singularity: the measures with screws, and shafts that drive them, in turns that advance
  * them by the model's length. In rad a fine thread would look singular everywhere.
  * @returns {{parallel: number, serial: number}}
  */
-export function nearness(model, values) {
-  if (!weighed.has(model)) weighed.set(model, { ...model, scale: model.units });
-  const { parallel, serial } = measuresAt(weighed.get(model), values);
-  return { parallel, serial };
-}
-const weighed = new WeakMap();
+export const nearness = (model, values) => measuresAt(weighed(model), values);
+const weighed = once((model) => ({ ...model, scale: model.units }));
 
 /** The input that moves most where the platform moves least: at a serial singularity its leg is stretched or folded. */
 export function looseInput({ pose, inputs }) {

@@ -11,19 +11,10 @@
 const NEARLY_UPRIGHT = 1e-4; // cosine of theta
 const SMALL = 1e-2;
 
-/** @param {Vector} a @param {Vector} b @returns {Vector} a + b */
 export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-
-/** @param {number} s @param {Vector} a @returns {Vector} */
 export const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
-
-/** @param {Vector} a @param {Vector} b @returns {Vector} a x b */
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-
-/** @param {Vector} a @param {Vector} b @returns {number} a . b */
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
-/** @param {Vector} a @returns {number} */
 export const norm = (a) => Math.hypot(a[0], a[1], a[2]);
 
 /** @param {Matrix} a @param {Matrix} b @returns {Matrix} a b */
@@ -34,7 +25,6 @@ export function multiply(a, b) {
   return c;
 }
 
-/** @param {Matrix} a @returns {Matrix} */
 export const transpose = (a) => [a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]];
 
 /** @param {Matrix} a @param {Vector} v @returns {Vector} a v */
@@ -44,7 +34,7 @@ export const apply = (a, v) => [
   a[6] * v[0] + a[7] * v[1] + a[8] * v[2],
 ];
 
-/** Where a point of a link is. @param {{turn: ArrayLike<number>, origin: ArrayLike<number>}} frame @param {Vector} at @returns {Vector} */
+/** Where a point of a link is, in the base frame. */
 export const placed = ({ turn, origin }, at) => add(origin, apply(turn, at));
 
 /** I + s K + t K K, with K the cross product matrix of v. */
@@ -63,9 +53,6 @@ function series(v, s, t) {
   ];
 }
 
-/** @param {Vector} axis of length 1 @param {number} angle @returns {Matrix} */
-const aboutAxis = (axis, angle) => series(axis, Math.sin(angle), 2 * Math.sin(angle / 2) ** 2);
-
 /** sin(a / 2) / a, (1 - cos a) / a^2 and (a - sin a) / a^3, exact at 0. */
 function coefficients(a) {
   const q = a * a;
@@ -83,13 +70,13 @@ export function quaternionOf(v) {
 /** @param {Vector} v a rotation vector @returns {Matrix} */
 export const fromVector = (v) => fromQuaternion(quaternionOf(v));
 
-/** What turns rates of a rotation vector into the angular velocity. @param {Vector} v @returns {Matrix} */
+/** What turns rates of a rotation vector into the angular velocity. @returns {Matrix} */
 export function leftJacobian(v) {
   const [, second, third] = coefficients(norm(v));
   return series(v, second, third);
 }
 
-/** What turns the angular velocity into rates of a rotation vector; at whole turns it is large. @param {Vector} v @returns {Matrix} */
+/** What turns the angular velocity into rates of a rotation vector; at whole turns it is large. @returns {Matrix} */
 export function vectorRates(v) {
   const a = norm(v);
   return series(v, -0.5, a < SMALL ? 1 / 12 + (a * a) / 720 : (1 - a / 2 / Math.tan(a / 2)) / (a * a));
@@ -97,23 +84,9 @@ export function vectorRates(v) {
 
 /** The rotation vector, at most pi long; it vanishes at the identity only. @param {Matrix} r @returns {Vector} */
 export function toVector(r) {
-  const half = [(r[7] - r[5]) / 2, (r[2] - r[6]) / 2, (r[3] - r[1]) / 2];
-  const sine = norm(half);
-  const cosine = (r[0] + r[4] + r[8] - 1) / 2;
-  const angle = Math.atan2(sine, cosine);
-  if (sine <= 1e-4 && cosine < 0) return nearHalfTurn(r, half, angle);
-  return times(sine > 1e-8 ? angle / sine : 1, half);
-}
-
-function nearHalfTurn(r, half, angle) {
-  const c = Math.cos(angle);
-  const outer = [0, 1, 2].map((i) =>
-    [0, 1, 2].map((j) => ((r[3 * i + j] + r[3 * j + i]) / 2 - (i === j ? c : 0)) / (1 - c)),
-  );
-  const k = [0, 1, 2].reduce((best, i) => (outer[i][i] > outer[best][best] ? i : best), 0);
-  const axis = times(1 / norm(outer[k]), outer[k]);
-  const sense = axis[0] * half[0] + axis[1] * half[1] + axis[2] * half[2] < 0 ? -1 : 1;
-  return times(angle * sense, axis);
+  const [cosine, ...axis] = toQuaternion(r);
+  const sine = norm(axis); // of half the angle
+  return times(sine > 0 ? (2 * Math.atan2(sine, cosine)) / sine : 2, axis);
 }
 
 /** @param {number[]} q scalar first @returns {Matrix} */
@@ -125,17 +98,17 @@ export function fromQuaternion(q) {
 
 /** The unit quaternion, its scalar first and not negative. @param {Matrix} r @returns {number[]} */
 export function toQuaternion(r) {
-  const trace = r[0] + r[4] + r[8];
-  const outer = [0, 1, 2, 3].map(() => [0, 0, 0, 0]);
-  outer[0][0] = 1 + trace;
-  for (let i = 0; i < 3; i++)
-    for (let j = 0; j < 3; j++) outer[i + 1][j + 1] = r[3 * i + j] + r[3 * j + i] + (i === j ? 1 - trace : 0);
-  outer[0][1] = outer[1][0] = r[7] - r[5];
-  outer[0][2] = outer[2][0] = r[2] - r[6];
-  outer[0][3] = outer[3][0] = r[3] - r[1];
-  const k = [0, 1, 2, 3].reduce((best, i) => (outer[i][i] > outer[best][best] ? i : best), 0);
-  const size = Math.hypot(...outer[k]) * (outer[k][0] < 0 ? -1 : 1);
-  return outer[k].map((part) => part / size);
+  const [x, y, z] = [r[7] - r[5], r[2] - r[6], r[3] - r[1]];
+  const [xy, xz, yz] = [r[1] + r[3], r[2] + r[6], r[5] + r[7]];
+  const outer = [
+    [1 + r[0] + r[4] + r[8], x, y, z],
+    [x, 1 + r[0] - r[4] - r[8], xy, xz],
+    [y, xy, 1 - r[0] + r[4] - r[8], yz],
+    [z, xz, yz, 1 - r[0] - r[4] + r[8]],
+  ]; // 4 q q, of which the row of the largest part is taken
+  const row = outer.reduce((best, other, k) => (other[k] > best[outer.indexOf(best)] ? other : best));
+  const size = Math.hypot(...row) * (row[0] < 0 ? -1 : 1);
+  return row.map((part) => part / size);
 }
 
 /** @param {Matrix} r @returns {[number, number, number]} phi, theta, psi */
@@ -149,9 +122,11 @@ export function toAngles(r) {
   return [phi, theta, Math.atan2(sine * r[2] - cosine * r[5], cosine * r[4] - sine * r[1])];
 }
 
-/** @param {number} phi @param {number} theta @param {number} psi @returns {Matrix} */
-export const fromAngles = (phi, theta, psi) =>
-  multiply(multiply(aboutAxis([0, 0, 1], phi), aboutAxis([0, 1, 0], theta)), aboutAxis([1, 0, 0], psi));
+/** @returns {Matrix} */
+export function fromAngles(phi, theta, psi) {
+  const about = (axis, angle) => series(axis, Math.sin(angle), 2 * Math.sin(angle / 2) ** 2);
+  return multiply(multiply(about([0, 0, 1], phi), about([0, 1, 0], theta)), about([1, 0, 0], psi));
+}
 
-/** An angle within half a turn of 0. @param {number} angle @returns {number} */
+/** An angle within half a turn of 0. */
 export const nearestTurn = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
