@@ -1,10 +1,9 @@
 /** Sliders: one for each input and each coordinate of the pose, with a number beside it; both say the same state. */
 
-import { el, figures, indexed, minus, symbol } from "./dom.js";
+import { el, figures, indexed, minus, shownUnit, symbol } from "./dom.js";
 import { holding, roundBelow, unwound } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 
-const DEGREE = 180 / Math.PI;
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
 const STEP = 100; // an arrow key goes a round number that is at most this part of the slider
 
@@ -135,14 +134,12 @@ const replaced = (values, k, value) => values.map((other, j) => (j === k ? value
 /** @returns {{inputs: HTMLElement, pose: HTMLElement}} both groups of sliders, which follow the state */
 export function controls(mechanism) {
   const { scene, model } = mechanism;
-  const degrees = scene.angleUnit === "deg";
-  const angles = degrees ? { unit: "°", factor: DEGREE, places: 2 } : { unit: "rad", factor: 1, places: 4 };
-  const places = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(scene.extent))));
-  const scaled = (length) => (length ? { unit: scene.unit, factor: 1, places } : angles);
+  const fine = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(scene.extent))));
+  const places = (length) => (length ? fine : scene.angleUnit === "deg" ? 2 : 4);
   const winds = ({ kind, counted }) => kind !== "length" && !counted; // a screw's turns are never wound back
   let last = null;
   const sliderOf = (length, given, change) => {
-    const slider = new Slider({ ...given, ...scaled(length) }, (value) => {
+    const slider = new Slider({ ...given, ...shownUnit(scene, length), places: places(length) }, (value) => {
       last = slider;
       change(value);
     });

@@ -1,6 +1,6 @@
 /** Courses for the player: a circle of the platform, and everything to and fro, of a stated size well inside reach. */
 
-import { greek } from "./dom.js";
+import { greek, shownUnit } from "./dom.js";
 import { roundBelow } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 import { toInputs, toPose } from "./solver/motion.js";
@@ -11,7 +11,6 @@ const TRAVEL = 0.45; // of the slider, at most
 const WIDEST = (2 * Math.PI) / 3; // rad of an angle's slider that count
 const CLEAR = 1.25; // a course that is so much larger can be followed too
 const ROUGH = 20; // places at which that is asked
-const DEGREE = 180 / Math.PI;
 const SIZES = 5; // that are tried, each a round number
 
 /**
@@ -54,26 +53,22 @@ export function coursesOf(mechanism) {
   const { model, scene } = mechanism;
   const { names, values } = shownPose(model, mechanism.pose);
   const inputs = mechanism.inputs;
-  const degrees = scene.angleUnit === "deg";
-  const shown = (length) =>
-    length ? { factor: 1, unit: ` ${scene.unit}` } : { factor: degrees ? DEGREE : 1, unit: degrees ? "°" : " rad" };
   const span = (length, [low, high]) => (length ? high - low : Math.min(WIDEST, high - low));
   const room = (k) =>
     span(isLength(names[k]), scene.poseRange[model.pose.indexOf(names[k])] ?? [-Math.PI, Math.PI]);
   const course = (words, length, most, rest) => {
-    const { factor, unit } = shown(length);
+    const { factor, unit } = shownUnit(scene, length);
     const sizes = sizesFrom(most * factor).map((size) => size / factor);
-    const amount = (size) => `${Number((size * factor).toPrecision(3))}${unit}`;
+    const amount = (size) => `${Number((size * factor).toPrecision(3))}${unit === "°" ? unit : ` ${unit}`}`;
     return { amount, name: (size) => `${greek(words)} ${amount(size)}`, sizes, ...rest };
   };
   const pose = (ways, change) => ({
     kind: "pose",
     ways,
-    at: (t, size, way) =>
-      poseOfShown(
-        model,
-        values.map((value, k) => value + size * change(2 * Math.PI * t, way, k)),
-      ),
+    at: (t, size, way) => {
+      const shown = values.map((value, k) => value + size * change(2 * Math.PI * t, way, k));
+      return poseOfShown(model, shown);
+    },
   });
   const circle = (pair) =>
     course(
@@ -82,17 +77,14 @@ export function coursesOf(mechanism) {
       RADIUS * Math.min(...pair.map(room)),
       pose(4, (angle, way, k) => (pair.includes(k) ? round(angle, way)[pair.indexOf(k)] : 0)),
     );
-  const swing = (name, j) =>
-    course(
-      `${name} to and fro,`,
-      isLength(name),
-      TRAVEL * room(j),
-      pose(SWINGS.length, (angle, way, k) => (k === j ? SWINGS[way](angle) : 0)),
-    );
+  const swing = (name, j) => {
+    const rest = pose(SWINGS.length, (angle, way, k) => (k === j ? SWINGS[way](angle) : 0));
+    return course(`${name} to and fro,`, isLength(name), TRAVEL * room(j), rest);
+  };
   const input = (item, j) => {
     const length = item.kind === "length";
-    const at = (t, size, way) =>
-      inputs.map((value, k) => (k === j ? value + size * SWINGS[way](2 * Math.PI * t) : value));
+    const change = (t, size, way) => size * SWINGS[way](2 * Math.PI * t);
+    const at = (...given) => inputs.map((value, k) => (k === j ? value + change(...given) : value));
     const rest = { kind: "inputs", ways: SWINGS.length, at };
     return course(`input ${item.name} to and fro,`, length, TRAVEL * span(length, item.range), rest);
   };

@@ -1,45 +1,26 @@
 /** Small helpers for the page's elements and the text in them. */
 
-/**
- * An element. @param {string} tag @param {Record<string, any>} given attributes; on... are listeners
- * @param {...(Node|string|null)} children
- */
+/** An element. @param {Record<string, any>} given attributes; on... are listeners */
 export function el(tag, given = {}, ...children) {
   const node = document.createElement(tag);
   for (const [name, value] of Object.entries(given)) {
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else if (value === true) node.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) node.setAttribute(name, value);
+    else if (value !== false && value !== null) node.setAttribute(name, value === true ? "" : value);
   }
-  node.append(...children.filter((child) => child !== null && child !== undefined));
+  node.append(...children.filter((child) => child !== null));
   return node;
 }
 
-const GREEK = {
-  alpha: "α",
-  beta: "β",
-  gamma: "γ",
-  delta: "δ",
-  theta: "θ",
-  phi: "φ",
-  varphi: "φ",
-  psi: "ψ",
-  rho: "ρ",
-  lambda: "λ",
-  mu: "μ",
-  omega: "ω",
-  kappa: "κ",
-  xi: "ξ",
-  eta: "η",
-  sigma: "σ",
-  tau: "τ",
-};
+const LETTERS =
+  "alpha α, beta β, gamma γ, delta δ, theta θ, phi φ, varphi φ, psi ψ, rho ρ, lambda λ, mu μ, omega ω, kappa κ, xi ξ, " +
+  "eta η, sigma σ, tau τ";
+const GREEK = Object.fromEntries(LETTERS.split(", ").map((pair) => pair.split(" ")));
 
 /** Greek letters for their names. @param {string} text */
 export const greek = (text) =>
   text.replace(/\\?([A-Za-z]+)/g, (whole, name) => GREEK[name] ?? (whole[0] === "\\" ? "" : whole));
 
-/** A symbol written in LaTeX's way, with its index below the line. @param {string} latex @returns {HTMLElement} */
+/** A symbol written in LaTeX's way, with its index below the line. */
 export function symbol(latex) {
   const plain = greek(latex).replace(/[$\s]/g, "");
   const [, base, index] = /^([^_]*)_?(.*)$/.exec(plain);
@@ -84,6 +65,10 @@ export function figures(value, count = 4) {
   }
   return minus(String(Number(value.toPrecision(count))));
 }
+
+/** How lengths, or angles, are shown: their unit, and how many of it a length or a radian is. */
+export const shownUnit = ({ unit, angleUnit }, length) =>
+  length ? { unit, factor: 1 } : angleUnit === "deg" ? { unit: "°", factor: 180 / Math.PI } : { unit: "rad", factor: 1 };
 
 /** An icon by its strokes on 24 x 24, for buttons that also have a label. */
 export function icon(path) {

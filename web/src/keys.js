@@ -17,6 +17,9 @@ const KEYS = [
   ["?", "this list"],
 ];
 
+const GESTURES =
+  "Drag to turn, wheel or two fingers to zoom, right button or two fingers to shift. Click a ghost to make it current.";
+
 /** @returns {HTMLDialogElement} */
 export function help() {
   const dialog = el(
@@ -24,11 +27,7 @@ export function help() {
     { class: "help", "aria-labelledby": "help-title" },
     el("h2", { id: "help-title" }, "Keys and gestures"),
     el("dl", {}, ...KEYS.map(([key, text]) => el("div", {}, el("dt", {}, el("kbd", {}, key)), el("dd", {}, text)))),
-    el(
-      "p",
-      { class: "quiet" },
-      "Drag to turn, wheel or two fingers to zoom, right button or two fingers to shift. Click a ghost to make it current.",
-    ),
+    el("p", { class: "quiet" }, GESTURES),
     el("form", { method: "dialog" }, el("button", { class: "plain", autofocus: true }, "Close")),
   );
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());

@@ -7,25 +7,16 @@ const FURTHEST = 50; // sizes of the mechanism that the camera's target may be a
 const MODE = /^[\w+~. -]{1,200}$/;
 const FLAGS = ["ghosts", "letters", "limits"];
 
-/**
- * What can be chosen on the page beside pose and camera: each is read, and put back.
- * @typedef {{tab: string, course: number, layers: number[], ghosts: boolean, letters: boolean, limits: boolean}} Choices
- * @typedef {{count: number, tabs: string[], courses: number, layers: number}} Known what there is to choose from
- */
-
-/** Numbers as short text that an address may hold: 32-bit floats in base64. @param {number[]} values */
+/** Numbers as short text that an address may hold: 32-bit floats in base64. */
 export function packed(values) {
   const bytes = new Uint8Array(Float32Array.from(values).buffer);
-  return btoa(String.fromCharCode(...bytes))
-    .replace(/\+/g, "-")
-    .replace(/\//g, "_")
-    .replace(/=+$/, "");
+  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** The same back; null for what is no such text. @param {string} text @param {number} count @returns {number[]|null} */
+/** The same back; null for what is no such text. @returns {number[]|null} */
 export function unpacked(text, count) {
   try {
-    const raw = atob(text.replace(/-/g, "+").replace(/_/g, "/"));
+    const raw = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
     if (raw.length !== 4 * count) return null;
     const values = [...new Float32Array(Uint8Array.from(raw, (letter) => letter.charCodeAt(0)).buffer)];
     return values.every(Number.isFinite) ? values : null;
@@ -34,7 +25,7 @@ export function unpacked(text, count) {
   }
 }
 
-/** The hash of a state; `mode` is the name of its assembly mode, if it has one. @param {{mode: string, values: number[], camera: number[], choices: Choices}} state */
+/** The hash of a state; `mode` is the name of its assembly mode, if it has one. */
 export function hashOf({ mode, values, camera, choices }) {
   const view = camera.map((value) => Number(value.toFixed(3))).join(",");
   const { tab, course, layers } = choices;
@@ -60,8 +51,8 @@ function cameraOf(text) {
 
 /**
  * What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. `number` is
- * that of a mode, as addresses bore it when modes had no names.
- * @param {string} hash @param {Known} known
+ * that of a mode, as addresses bore it when modes had no names. Joint values are counted; of tabs are names known, of
+ * courses and layers how many there are.
  */
 export function readHash(hash, { count, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
@@ -95,8 +86,7 @@ function renamed(number, { mode }) {
 
 /**
  * Restores what the address says and keeps it up to date.
- * @param {Record<keyof Choices, {read: () => any, put: (value: any) => void}>} choices where each is read and put
- * @param {Omit<Known, "count">} known
+ * @param {Record<string, {read: () => any, put: (value: any) => void}>} choices beside pose and camera
  * @param {(text: string) => void} say a word where an address is damaged
  * @returns {() => string} the address now
  */

@@ -9,7 +9,7 @@ import { help, shortcuts } from "./keys.js";
 import { linked } from "./link.js";
 import { Mechanism } from "./mechanism.js";
 import { modeLists } from "./modes.js";
-import { boxOf, check, panel } from "./panel.js";
+import { check, panel } from "./panel.js";
 import { Player } from "./player.js";
 import { readout } from "./readout.js";
 import { layerOf } from "./scene/layers.js";
@@ -90,12 +90,14 @@ const ghosts = new Ghosts(mechanism, geometries, stage, current.group);
 const player = new Player(mechanism, stage);
 mechanism.listen(placeAll);
 
-const ghostCheck = check("Ghosts of the other assembly modes", ghosts.shown, (shown) => ghosts.show(shown));
-const letterCheck = check("Letters", true, (shown) => {
-  letters.shown = shown;
-  stage.invalidate();
-});
-const limitCheck = check("Stop at strokes and joint limits", true, (on) => (mechanism.limits = on));
+const checks = {
+  ghosts: check("Ghosts of the other assembly modes", ghosts.shown, (shown) => ghosts.show(shown)),
+  letters: check("Letters", true, (shown) => {
+    letters.shown = shown;
+    stage.invalidate();
+  }),
+  limits: check("Stop at strokes and joint limits", true, (on) => (mechanism.limits = on)),
+};
 const view = (name, ...angles) =>
   el("button", { type: "button", class: "plain", onclick: () => stage.look(angles) }, name);
 const sides = [view("3-D", ...SPACE), view("Front", -90, 0), view("Side", 0, 0), view("Top", -90, 90)];
@@ -145,30 +147,19 @@ const side = panel({
   sliders: controls(mechanism),
   player,
   modes: modeLists(mechanism, ghosts),
-  looks: { checks: [ghostCheck, letterCheck, limitCheck], views },
+  looks: { checks: Object.values(checks), views },
   layers,
 });
 app.append(side.element, dialog);
 stage.resize();
 stage.look();
-const shown = layers.map(boxOf);
-const address = linked(
-  mechanism,
-  stage,
-  {
-    tab: side.tab,
-    course: player.course,
-    layers: {
-      read: () => [...shown.keys()].filter((k) => shown[k].read()),
-      put: (wanted) => shown.forEach((box, k) => box.put(wanted.includes(k))),
-    },
-    ghosts: boxOf(ghostCheck),
-    letters: boxOf(letterCheck),
-    limits: boxOf(limitCheck),
-  },
-  { tabs: side.tabs, courses: player.courses.length, layers: layers.length },
-  say,
-);
+const drawn = {
+  read: () => [...layers.keys()].filter((k) => layers[k].read()),
+  put: (wanted) => layers.forEach((layer, k) => layer.put(wanted.includes(k))),
+};
+const choices = { tab: side.tab, course: player.course, layers: drawn, ...checks };
+const known = { tabs: side.tabs, courses: player.courses.length, layers: layers.length };
+const address = linked(mechanism, stage, choices, known, say);
 
 shortcuts({
   r: reset,
@@ -177,8 +168,8 @@ shortcuts({
   l: share,
   p: () => player.toggle(),
   "?": () => dialog.showModal(),
-  g: () => ghostCheck.firstChild.click(),
-  n: () => letterCheck.firstChild.click(),
+  g: checks.ghosts.press,
+  n: checks.letters.press,
   digit: (k) => mechanism.choose(k - 1),
 });
 darkness.addEventListener("change", paint);

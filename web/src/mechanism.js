@@ -119,13 +119,13 @@ export class Mechanism {
     return inputsOf(this.model, this.values);
   }
 
-  /** @param {number[]} printed inputs, lengths and rad; the assembly mode is kept */
+  /** To printed inputs, lengths and rad; the assembly mode is kept. */
   toInputs(printed) {
     const names = this.model.inputs.map(({ name }) => name);
     return this.moved(toInputs(this.model, this.values, numbers("toInputs", printed, names), this));
   }
 
-  /** @param {number[]} pose lengths and rad; the working mode is kept */
+  /** To a pose, lengths and rad; the working mode is kept. */
   toPose(pose) {
     return this.moved(toPose(this.model, this.values, numbers("toPose", pose, this.model.pose), this));
   }
@@ -156,7 +156,7 @@ export class Mechanism {
     return this.state();
   }
 
-  /** Makes another assembly mode current, at the same inputs. @param {number} index */
+  /** Makes another assembly mode current, at the same inputs. */
   choose(index) {
     const item = this.assembly[index];
     if (!item) return this.state();
@@ -173,7 +173,7 @@ export class Mechanism {
     return this.state();
   }
 
-  /** Goes to another working mode, at the same pose. @param {number} index */
+  /** Goes to another working mode, at the same pose. */
   work(index) {
     const item = this.working[index];
     if (!item) return this.state();

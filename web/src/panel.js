@@ -7,19 +7,21 @@ import { difference, dimensions, errata } from "./source.js";
 const section = (title, note, ...content) =>
   el("section", {}, el("h2", {}, title, note ? el("small", {}, note) : null), ...content);
 
-/** A check box with its label. */
+/** A check box with its label; `press` and `put` do what a hand would. */
 export function check(label, checked, changed, colour) {
   const box = el("input", { type: "checkbox", onchange: () => changed(box.checked) });
   box.checked = checked;
   const dye = colour ? el("i", { style: `--colour:${colour}` }) : null;
-  return el("label", { class: "check" }, box, dye, el("span", {}, minus(label)));
+  const press = () => box.click();
+  return {
+    element: el("label", { class: "check" }, box, dye, el("span", {}, minus(label))),
+    read: () => box.checked,
+    put: (on) => box.checked !== on && press(),
+    press,
+  };
 }
 
-/** Whether a check box is on, and how to put it on or off as a hand would. @param {HTMLElement} label of `check` */
-export const boxOf = (label) => ({
-  read: () => label.control.checked,
-  put: (on) => label.control.checked !== on && label.control.click(),
-});
+const elements = (checks) => checks.map(({ element }) => element);
 
 /** Tabs as the keyboard expects them: arrows go from one to the next, Home and End to the first and the last. */
 function tabs(pages) {
@@ -67,12 +69,13 @@ function facts(scene) {
   const said = Object.entries(NUMBERS).filter(([key]) => key !== "factor" || scene.kernel);
   const meanings = said.map(([, [title, text]]) => ({ title, text }));
   const pair = ({ title, text }) => el("div", {}, el("dt", {}, title), el("dd", {}, minus(text)));
+  const list = (items) => el("dl", { class: "facts" }, ...items.map(pair));
   return [
-    scene.facts.length ? section("Topology", "", el("dl", { class: "facts" }, ...scene.facts.map(pair))) : null,
+    scene.facts.length ? section("Topology", "", list(scene.facts)) : null,
     section("Errata of the source", "", errata(scene)),
     scene.parameters.length ? section("Dimensions", difference(scene), dimensions(scene)) : null,
     scene.source ? section("Source", "", el("p", { class: "quiet" }, scene.source)) : null,
-    section("What the numbers mean", "", el("dl", { class: "facts" }, ...meanings.map(pair))),
+    section("What the numbers mean", "", list(meanings)),
   ].filter(Boolean);
 }
 
@@ -81,10 +84,7 @@ const note = (text) => (text ? el("p", { class: "quiet" }, minus(text)) : "");
 
 const count = (list) => (list.length > 1 ? String(list.length) : "");
 
-/**
- * @param {object} parts what goes into it, made elsewhere
- * @returns {{element: HTMLElement, tabs: string[], tab: {read: () => string, put: (name: string) => void}}}
- */
+/** @returns {{element: HTMLElement, tabs: string[], tab: {read: () => string, put: (name: string) => void}}} */
 export function panel({ scene, sliders, player, modes, looks, layers }) {
   const { list, pages, names, chosen } = tabs([
     {
@@ -100,8 +100,8 @@ export function panel({ scene, sliders, player, modes, looks, layers }) {
     {
       name: "Show",
       content: [
-        section("Layers", "", ...layers, note(scene.layersNote)),
-        section("Drawing", "", ...looks.checks),
+        section("Layers", "", ...elements(layers), note(scene.layersNote)),
+        section("Drawing", "", ...elements(looks.checks)),
         section("View", "", looks.views),
       ],
     },
@@ -113,17 +113,11 @@ export function panel({ scene, sliders, player, modes, looks, layers }) {
     fold.setAttribute("aria-expanded", String(!on));
     fold.setAttribute("aria-label", on ? "Unfold the panel" : "Fold the panel");
   };
-  const fold = el(
-    "button",
-    { type: "button", class: "fold", onclick: () => folded(!classList.contains("folded")) },
-    icon("M6 9l6 6 6-6"),
-  );
+  const turn = () => folded(!classList.contains("folded"));
+  const fold = el("button", { type: "button", class: "fold", onclick: turn }, icon("M6 9l6 6 6-6"));
   folded(false);
   list.addEventListener("click", () => folded(false));
   const bar = el("div", { class: "bar" }, list, fold);
-  return {
-    element: el("aside", { class: "panel", "aria-label": "Controls" }, bar, ...pages),
-    tabs: names,
-    tab: chosen,
-  };
+  const element = el("aside", { class: "panel", "aria-label": "Controls" }, bar, ...pages);
+  return { element, tabs: names, tab: chosen };
 }

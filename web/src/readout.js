@@ -1,6 +1,6 @@
 /** Live numbers: what the page can say of the present configuration. */
 
-import { el, figures, spelt } from "./dom.js";
+import { el, figures, shownUnit, spelt } from "./dom.js";
 import { NEAR } from "./explain.js";
 import { NearestSingular } from "./solver/distance.js";
 import { isLength } from "./solver/pose.js";
@@ -31,12 +31,7 @@ export const NUMBERS = {
 
 const KINDS = { parallel: "parallel", serial: "serial", passive: "a passive leg" };
 
-/**
- * The distance of a singularity that was found, and of what kind.
- * @param {{amount: number, kind: string}} found
- * @param {boolean} over whether the search came to its end
- * @param {number} range how far it looks
- */
+/** The distance of a singularity that was found, and of what kind; `over`: the search came to its end, at that range. */
 export function distanceSaid({ amount, kind }, over, range, unit) {
   if (Number.isNaN(amount)) return "–";
   if (amount < Infinity) return `${over ? "" : "at most "}${figures(amount, 3)} ${unit}, ${KINDS[kind]}`;
@@ -52,18 +47,13 @@ export function conditionSaid(condition, { platform, inputs, characteristicLengt
   return `${said}, L = ${figures(characteristicLength, 3)} ${unit}`;
 }
 
-/**
- * Whether the file's limits are kept, else the one that is exceeded most.
- * @param {{stated: boolean, exceeded: {name: string, angle: boolean, by: number}[]}} found
- * @param {{unit: string, angleUnit: string}} scene
- */
-export function limitsSaid({ stated, exceeded }, { unit, angleUnit }) {
+/** Whether the file's limits are kept, else the one that is exceeded most. */
+export function limitsSaid({ stated, exceeded }, scene) {
   if (!stated) return "no limits are stated";
   if (!exceeded.length) return "within";
   const [{ name, angle, by }] = exceeded;
-  const factor = angle && angleUnit === "deg" ? 180 / Math.PI : 1;
   const more = exceeded.length > 1 ? `, ${exceeded.length - 1} more` : "";
-  return `${name} outside by ${figures(by * factor, 3)} ${angle ? angleUnit : unit}${more}`;
+  return `${name} outside by ${figures(by * shownUnit(scene, !angle).factor, 3)} ${angle ? scene.angleUnit : scene.unit}${more}`;
 }
 
 /** @returns {HTMLElement} a list of numbers that follows the mechanism */

@@ -22,21 +22,15 @@ export function difference({ original, parameters }) {
   const found = parameters.filter((item) => item.original !== null);
   if (!found.length) return `dimensions of ${original.name}`;
   const one = ({ name, value, original: there }) => `${name} = ${exact(value)} (${original.name}: ${exact(there)})`;
-  return found.length > MANY
-    ? `${found.length} dimensions differ from ${original.name}`
-    : `with ${found.map(one).join(", ")}`;
+  if (found.length > MANY) return `${found.length} dimensions differ from ${original.name}`;
+  return `with ${found.map(one).join(", ")}`;
 }
 
 /** The title over the picture, the name under it, and what differs from the original. @returns {HTMLElement} */
 export function heading(scene) {
   const { title, name } = scene;
-  const said = difference(scene);
-  return el(
-    "header",
-    { class: "title" },
-    el("h1", {}, title || name),
-    el("p", {}, [title ? name : "", said].filter(Boolean).join(": ")),
-  );
+  const below = [title ? name : "", difference(scene)].filter(Boolean).join(": ");
+  return el("header", { class: "title" }, el("h1", {}, title || name), el("p", {}, below));
 }
 
 /** A table of the dimensions, and what differs; those that are not the original's have both values. */

@@ -3,13 +3,12 @@
  * to where given points are seen.
  */
 
-import { Box3, PerspectiveCamera, Spherical, Vector3 } from "three";
+import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const MARGIN = 1.16;
 const EASE = 110; // milliseconds in which a way shrinks to a third
 const [NEAREST, FURTHEST] = [0.3, 20];
-const UP_TO_Y = ([x, y, z]) => new Vector3(x, z, -y);
 const RADIAN = Math.PI / 180;
 
 export class Camera {
@@ -119,15 +118,10 @@ export class Camera {
 
   /** The same numbers of where it is now. */
   numbers() {
-    const way = this.camera.position.clone().sub(this.controls.target);
-    const { radius, phi, theta } = new Spherical().setFromVector3(UP_TO_Y(way.toArray()));
-    const azimuth = theta / RADIAN - 90;
-    return [
-      ((azimuth + 540) % 360) - 180,
-      90 - phi / RADIAN,
-      radius * this.narrow,
-      ...this.controls.target.toArray(),
-    ];
+    const { target } = this.controls;
+    const [x, y, z] = this.camera.position.clone().sub(target);
+    const angles = [Math.atan2(y, x), Math.atan2(z, Math.hypot(x, y))];
+    return [...angles.map((angle) => angle / RADIAN), Math.hypot(x, y, z) * this.narrow, ...target];
   }
 
   resize(width, height) {

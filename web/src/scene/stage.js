@@ -32,11 +32,9 @@ export class Stage {
     this.element = element;
     this.renderer = new WebGLRenderer({ antialias: true });
     this.slow = drawnByProcessor(this.renderer.getContext());
-    this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1.12;
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    this.renderer.shadowMap.autoUpdate = false; // the sun stands; only what moves changes shadows
+    Object.assign(this.renderer, { toneMapping: NeutralToneMapping, toneMappingExposure: 1.12 });
+    // the sun stands; only what moves changes shadows
+    Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap, autoUpdate: false });
     this.canvas = this.renderer.domElement;
     element.prepend(this.canvas);
     this.scene = new Scene();
@@ -59,11 +57,10 @@ export class Stage {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.setScalar(this.slow ? 1024 : 2048);
     Object.assign(this.sun.shadow, { radius: this.slow ? 2 : 3.5, bias: -0.0004, normalBias: 0.006 });
-    this.fill = new DirectionalLight("#e6eeff", 1.0);
-    this.fill.position.set(1.5, -0.6, 0.5);
-    this.rim = new DirectionalLight("#ffffff", 0.9);
-    this.rim.position.set(-0.4, 1.2, 0.5);
-    this.scene.add(this.sky, this.sun, this.sun.target, this.fill, this.rim);
+    const [fill, rim] = [new DirectionalLight("#e6eeff", 1.0), new DirectionalLight("#ffffff", 0.9)];
+    fill.position.set(1.5, -0.6, 0.5);
+    rim.position.set(-0.4, 1.2, 0.5);
+    this.scene.add(this.sky, this.sun, this.sun.target, fill, rim);
   }
 
   /** Puts an object into the mechanism's own space. */

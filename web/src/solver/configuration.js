@@ -7,18 +7,7 @@
 
 import { leftJacobian, quaternionOf } from "./rotation.js";
 
-/**
- * @typedef {ArrayLike<number>} Numbers
- * @typedef {{turn: Numbers, origin: Numbers}} Frame orientation, nine numbers row by row, and origin in the base frame
- * @typedef {{name: string, parent: number, child: number, at: number[], childAt: number[], first: number,
- *   freedoms: number, limits: (number[]|null)[], cone: number|null, coneAxis: number[]|null}} Joint
- * @typedef {{program: (state: number[], dimensions: number[], numbers: Float64Array) => void, dimensions: number[],
- *   joints: Joint[], links: string[], steps: {kind: string, first: number}[], balls: number[], cut: number[],
- *   point: number[], pose: string[], count: number, length: number, scale: number[], units: number[],
- *   coordinates: {label: string, kind: string, counted: boolean, size: number}[],
- *   inputs: {name: string, index: number, sign: number, offset: number, kind: string, counted: boolean,
- *   stroke: number[]|null, range: number[]}[], unit: string, home: number[]}} Model balls: first joint value of each
- */
+/** @typedef {{turn: ArrayLike<number>, origin: ArrayLike<number>}} Frame nine numbers row by row, and three, in the base frame */
 
 /** The numbers that say where a step stands, from the values of its coordinates. */
 const STATE = {
@@ -28,31 +17,29 @@ const STATE = {
   ball: quaternionOf,
 };
 
-/** The scene's joint graph, its links as numbers. @returns {Model} */
+/** What of a scene is computed with: its joint graph, links as numbers; `balls`: the first joint value of each. */
 export function modelOf(scene) {
-  const { graph, coordinates, characteristicLength: length } = scene;
-  const place = new Map(graph.links.map((name, k) => [name, k]));
-  const ends = ({ parent, child }) => ({ parent: place.get(parent), child: place.get(child) });
-  const scale = coordinates.map((item) => (item.kind === "length" ? length : 1));
+  const { graph, coordinates, inputs, unit, home, characteristicLength: length } = scene;
+  const place = (name) => graph.links.indexOf(name);
+  const balls = graph.steps.filter(({ kind }) => kind === "ball");
   return {
+    ...graph,
     program: scene.configuration,
-    dimensions: graph.dimensions,
-    joints: graph.joints.map((joint) => ({ ...joint, ...ends(joint) })),
-    links: graph.links,
-    steps: graph.steps,
-    balls: graph.steps.filter(({ kind }) => kind === "ball").map(({ first }) => first),
-    cut: graph.cut,
-    pose: scene.platform.pose,
-    count: scene.home.length,
-    length,
-    scale,
-    units: coordinates.map(({ size }) => size),
+    joints: graph.joints.map((joint) => ({ ...joint, parent: place(joint.parent), child: place(joint.child) })),
+    balls: balls.map(({ first }) => first),
     coordinates,
-    inputs: scene.inputs,
-    unit: scene.unit,
-    home: scene.home,
+    inputs,
+    pose: scene.platform.pose,
+    home,
+    count: home.length,
+    unit,
+    length,
+    scale: coordinates.map(({ kind }) => (kind === "length" ? length : 1)),
+    units: coordinates.map(({ size }) => size),
   };
 }
+
+/** @typedef {ReturnType<typeof modelOf>} Model */
 
 /** What the program is given at joint values: where each step stands, then what the rates of ball joints mean. */
 function stateOf(model, values) {
@@ -83,7 +70,7 @@ class Configuration {
     return Array.from({ length }, (_, k) => this.numbers.subarray(start + k * width, start + (k + 1) * width));
   }
 
-  /** Of each cut joint how far it is from closing its loop. @returns {{distance: Numbers, turn: Numbers}[]} */
+  /** Of each cut joint how far it is from closing its loop. */
   get gaps() {
     return this.rows("gap", this.loops, 12).map((row) => ({ distance: row.subarray(0, 3), turn: row.subarray(3) }));
   }

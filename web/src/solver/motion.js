@@ -41,12 +41,7 @@ export function blamed(model, reason) {
 /** Printed values of the inputs, lengths and rad. @returns {number[]} */
 export const inputsOf = (model, values) => model.inputs.map((item) => item.sign * values[item.index] + item.offset);
 
-/**
- * To printed inputs, the assembly mode kept.
- * @param {number[]} values joint values of an assembly
- * @param {number[]} target printed, lengths and rad
- * @returns {Moved}
- */
+/** From joint values of an assembly to printed inputs, lengths and rad, the assembly mode kept. @returns {Moved} */
 export function toInputs(model, values, target, options = {}) {
   const held = model.inputs.map((item) => item.index);
   const end = model.inputs.map((item, k) => (target[k] - item.offset) / item.sign);
@@ -62,9 +57,8 @@ export function toInputs(model, values, target, options = {}) {
 }
 
 /**
- * To a pose, the working mode kept; `through` parallel singularities only if so asked, for no drive could do that.
- * @param {number[]} target as the scene names the pose, lengths and rad
- * @returns {Moved}
+ * To a pose, lengths and rad, the working mode kept; `through` parallel singularities only if so asked, for no drive could
+ * do that. @returns {Moved}
  */
 export function toPose(model, values, target, options = {}) {
   const way = between(model, poseOf(model, values), target);

@@ -2,7 +2,7 @@
 
 import { closureRows, scaledPoseRates } from "./closure.js";
 import { configurationAt, once } from "./configuration.js";
-import { determinant, nullSpace, singular } from "./leastsquares.js";
+import { determinant, dot, nullSpace, singular } from "./leastsquares.js";
 import { hasAngles } from "./pose.js";
 
 const ZERO = 1e-12; // a measure below this is 0: rounding alone leaves some 1e-14
@@ -17,7 +17,7 @@ function pairsAt(model, values, names) {
   const free = nullSpace(closureRows(model, at), model.count);
   const rows = scaledPoseRates(model, at, names);
   for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
-  const pairs = free.map((motion) => rows.map((row) => sum(row, (value, k) => value * motion[k])));
+  const pairs = free.map((motion) => rows.map((row) => dot(row, motion)));
   return { free, rows, pairs };
 }
 
@@ -38,7 +38,6 @@ const pairsAtHome = once((model) => {
  * the joints; each number of the pairs that these have; and the least size of the latter, as many as at home: none where
  * a leg moves between input and platform alone
  * @param {string[]} [names] of the rates of the pose, those of `rateNames` if none are given
- * @returns {Motions}
  */
 function motionsAt(model, values, names) {
   const { free, rows, pairs } = pairsAt(model, values, names);
@@ -60,7 +59,6 @@ const sum = (items, term) => items.reduce((total, item, k) => total + term(item,
 /**
  * What the motions say of singularities. Where Jp v = Jq qdot, their singular values are those of Jp and Jq of
  * orthonormal relations; s/c of the two are those of the map from the inputs' rates to the pose's.
- * @param {Motions} motions
  */
 function measures({ pose, inputs }) {
   if (!inputs[0]?.length) return { condition: Infinity, parallel: 0, serial: 0 };
@@ -73,11 +71,7 @@ function measures({ pose, inputs }) {
 /** Singular values of rows of r numbers, r of them; rounding is 0. */
 const sizes = (rows) => singular(rows).values.map((value) => (value > ZERO ? value : 0));
 
-/**
- * Motions and their measures at joint values.
- * @typedef {Motions & ReturnType<typeof measures>} Measured
- * @returns {Measured}
- */
+/** @typedef {Motions & ReturnType<typeof measures>} Measured @returns {Measured} */
 export function measuresAt(model, values) {
   const motions = motionsAt(model, values);
   return { ...motions, ...measures(motions) };
@@ -86,7 +80,6 @@ export function measuresAt(model, values) {
 /**
  * The condition number of the map from the inputs' rates to those of the pose's own coordinates, phi, theta and psi among
  * them: what Python calls that of J. A right angle of theta leaves it without bound.
- * @returns {number}
  */
 export const conditionAt = (model, values) =>
   measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : undefined)).condition;
@@ -94,7 +87,6 @@ export const conditionAt = (model, values) =>
 /**
  * How near joint values are to a singularity: the measures with screws, and shafts that drive them, in turns that advance
  * them by the model's length. In rad a fine thread would look singular everywhere.
- * @returns {{parallel: number, serial: number}}
  */
 export const nearness = (model, values) => measuresAt(weighed(model), values);
 const weighed = once((model) => ({ ...model, scale: model.units }));
@@ -103,7 +95,7 @@ const weighed = once((model) => ({ ...model, scale: model.units }));
 export function looseInput({ pose, inputs }) {
   if (!pose.length) return 0;
   const still = singular(pose).right.at(-1);
-  const amounts = inputs.map((row) => Math.abs(sum(row, (value, k) => value * still[k])));
+  const amounts = inputs.map((row) => Math.abs(dot(row, still)));
   return amounts.indexOf(Math.max(...amounts));
 }
 
@@ -132,8 +124,7 @@ const ROWS = {
  * but for `BEND` squares of its length in the middle, less towards the ends; a singular value changes by no more than
  * its matrix. Where that matrix is not square, as that of passive legs, no determinant tells the sides of 0 apart: there
  * the chord, or each part of it, has to change by less than the measures at both its ends together.
- * @param {Measured} here @param {Measured} there
- * @param {"parallel"|"serial"|"passive"} kind
+ * @param {Measured} here @param {Measured} there @param {"parallel"|"serial"|"passive"} kind
  * @returns {{kept: boolean, sense: number}} sense: 1 or -1, 0 where that is not to be said
  */
 export function passage(here, there, kind) {
@@ -141,7 +132,7 @@ export function passage(here, there, kind) {
   const count = rows[0]?.length ?? 0;
   if (!count || others[0]?.length !== count) return { kept: false, sense: 0 };
   const { turn, away } = nearest(motions, otherMotions);
-  const end = others.map((row) => turn.map((column) => sum(row, (value, j) => value * column[j])));
+  const end = others.map((row) => turn.map((column) => dot(row, column)));
   const change = end.map((row, i) => row.map((value, k) => value - rows[i][k]));
   const square = rows.length === count;
   const sign = (matrix) => (square ? Math.sign(determinant(matrix)) : 1);

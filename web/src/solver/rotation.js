@@ -41,15 +41,9 @@ export const placed = ({ turn, origin }, at) => add(origin, apply(turn, at));
 function series(v, s, t) {
   const [x, y, z] = v;
   return [
-    1 - t * (y * y + z * z),
-    t * x * y - s * z,
-    t * x * z + s * y,
-    t * x * y + s * z,
-    1 - t * (x * x + z * z),
-    t * y * z - s * x,
-    t * x * z - s * y,
-    t * y * z + s * x,
-    1 - t * (x * x + y * y),
+    1 - t * (y * y + z * z), t * x * y - s * z, t * x * z + s * y,
+    t * x * y + s * z, 1 - t * (x * x + z * z), t * y * z - s * x,
+    t * x * z - s * y, t * y * z + s * x, 1 - t * (x * x + y * y),
   ];
 }
 
