@@ -1,7 +1,7 @@
 /** Sliders: one for each input and each coordinate of the pose, with a number beside it; both say the same state. */
 
 import { el, figures, indexed, minus, shownUnit, symbol } from "./dom.js";
-import { holding, roundBelow, unwound } from "./ends.js";
+import { holding, rangeOf, roundBelow, unwound } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
@@ -113,13 +113,6 @@ class Slider {
     this.range.setAttribute("aria-invalid", String(Boolean(text)));
     if (this.why.textContent !== text) this.why.textContent = text;
   }
-}
-
-/** What a slider of the pose covers: what the scene says; the angles of a quaternion all that they can be. */
-function rangeOf(name, { scene, model }) {
-  const index = model.pose.indexOf(name);
-  if (index >= 0) return scene.poseRange[index];
-  return name === "theta" ? [-Math.PI / 2, Math.PI / 2] : [-Math.PI, Math.PI];
 }
 
 /** A decimal comma is typed as a point: browsers that know the point alone would leave it out, 90,5 would be 905. */

@@ -1,7 +1,7 @@
 /** Courses for the player: a circle of the platform, and everything to and fro, of a stated size well inside reach. */
 
 import { greek, shownUnit } from "./dom.js";
-import { roundBelow } from "./ends.js";
+import { rangeOf, roundBelow } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 import { toInputs, toPose } from "./solver/motion.js";
 
@@ -54,8 +54,7 @@ export function coursesOf(mechanism) {
   const { names, values } = shownPose(model, mechanism.pose);
   const inputs = mechanism.inputs;
   const span = (length, [low, high]) => (length ? high - low : Math.min(WIDEST, high - low));
-  const room = (k) =>
-    span(isLength(names[k]), scene.poseRange[model.pose.indexOf(names[k])] ?? [-Math.PI, Math.PI]);
+  const room = (k) => span(isLength(names[k]), rangeOf(names[k], mechanism));
   const course = (words, length, most, rest) => {
     const { factor, unit } = shownUnit(scene, length);
     const sizes = sizesFrom(most * factor).map((size) => size / factor);

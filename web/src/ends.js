@@ -29,3 +29,10 @@ export function holding(ends, value) {
     ? [clean(Math.floor((value - room) / step)), high]
     : [low, clean(Math.ceil((value + room) / step))];
 }
+
+/** What a slider of the pose covers: what the scene says; the angles of a quaternion all that they can be. */
+export function rangeOf(name, { scene, model }) {
+  const index = model.pose.indexOf(name);
+  if (index >= 0) return scene.poseRange[index];
+  return name === "theta" ? [-Math.PI / 2, Math.PI / 2] : [-Math.PI, Math.PI];
+}

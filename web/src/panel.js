@@ -36,16 +36,10 @@ function tabs(pages) {
   };
   pages.forEach((item, k) => {
     const id = `page-${item.name.toLowerCase()}`;
-    item.tab = el(
-      "button",
-      { type: "button", role: "tab", id: `tab-${id}`, "aria-controls": id, onclick: () => choose(k) },
-      item.name,
-    );
-    item.page = el(
-      "div",
-      { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, class: "tabpage", tabindex: item.text ? 0 : -1 },
-      ...item.content,
-    );
+    const tab = { type: "button", role: "tab", id: `tab-${id}`, "aria-controls": id, onclick: () => choose(k) };
+    const page = { role: "tabpanel", id, "aria-labelledby": tab.id, class: "tabpage", tabindex: item.text ? 0 : -1 };
+    item.tab = el("button", tab, item.name);
+    item.page = el("div", page, ...item.content);
     list.append(item.tab);
   });
   list.addEventListener("keydown", (event) => {

@@ -10,7 +10,7 @@ const PIXELS = 27;
 export class Letters {
   constructor(scene, model, group) {
     Object.assign(this, { model, shown: true });
-    this.items = scene.letters.map(({ name, link, at }) => ({ name, at, link: model.links.indexOf(link), sprite: sprite(10) }));
+    this.items = scene.letters.map((item) => ({ ...item, link: model.links.indexOf(item.link), sprite: sprite(10) }));
     for (const { sprite } of this.items) {
       sprite.center.set(-0.12, -0.12);
       group.add(sprite);

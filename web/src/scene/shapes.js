@@ -40,16 +40,21 @@ function ball({ centre, radius }) {
   return new SphereGeometry(radius, 36, 24).toNonIndexed().translate(...centre);
 }
 
-function cylinder({ start, end, radius }) {
+/** The unit vector from one point to another, how far that is, and the point between; null where they are one. */
+function line(start, end, radius) {
   const [a, b] = [vector(start), vector(end)];
-  const z = b.clone().sub(a);
-  const length = z.length();
-  if (length <= 1e-9 * radius) return ball({ centre: start, radius });
-  z.divideScalar(length);
+  const way = b.clone().sub(a);
+  const length = way.length();
+  return length > 1e-9 * radius ? { way: way.divideScalar(length), length, middle: a.lerp(b, 0.5) } : null;
+}
+
+function cylinder({ start, end, radius }) {
+  const found = line(start, end, radius);
+  if (!found) return ball({ centre: start, radius });
+  const { way: z, length, middle } = found;
   const outline = new Shape();
   outline.absarc(0, 0, radius, 0, 2 * Math.PI);
-  const [x, y] = across(z);
-  return placed(prism(outline, length, radius), x, y, z, a.add(b).multiplyScalar(0.5));
+  return placed(prism(outline, length, radius), ...across(z), z, middle);
 }
 
 function box({ centre, sides }) {
@@ -64,17 +69,15 @@ function box({ centre, sides }) {
 }
 
 function bar({ start, end, normal, radius, thickness }) {
-  const [a, b] = [vector(start), vector(end)];
-  const x = b.clone().sub(a);
-  const length = x.length();
-  if (length <= 1e-9 * radius) return ball({ centre: start, radius });
-  x.divideScalar(length);
+  const found = line(start, end, radius);
+  if (!found) return ball({ centre: start, radius });
+  const { way: x, length, middle } = found;
   const z = vector(normal);
   const outline = new Shape();
   outline.absarc(length / 2, 0, radius, -Math.PI / 2, Math.PI / 2);
   outline.absarc(-length / 2, 0, radius, Math.PI / 2, (3 * Math.PI) / 2);
   const y = new Vector3().crossVectors(z, x);
-  return placed(prism(outline, thickness, thickness), x, y, z, a.add(b).multiplyScalar(0.5));
+  return placed(prism(outline, thickness, thickness), x, y, z, middle);
 }
 
 function slab({ outline, along }) {

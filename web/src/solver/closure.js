@@ -6,7 +6,7 @@
  */
 
 import { configurationAt } from "./configuration.js";
-import { poseError, poseRates, rateNames, isLength } from "./pose.js";
+import { poseError, poseRates } from "./pose.js";
 import { norm, times, toVector, vectorRates } from "./rotation.js";
 
 /** @returns {number[]} six numbers for each cut joint */
@@ -39,7 +39,7 @@ export function closingSystem(model, values, wanted, weight = 1) {
   const matrix = closureRows(model, at);
   if (wanted) {
     rows.push(...poseError(model, at, wanted).map((value) => (weight * value) / model.length));
-    matrix.push(...scaledPoseRates(model, at).map((row) => row.map((value) => weight * value)));
+    matrix.push(...poseRates(model, at).map((row) => row.map((value) => weight * value)));
   }
   return { rows, matrix };
 }
@@ -59,11 +59,4 @@ export function closureRows(model, { gaps, derivative }) {
       }
     return rows;
   });
-}
-
-/** Rates of the pose, without dimensions, per scaled rate of the joint values. @returns {Float64Array[]} */
-export function scaledPoseRates(model, at, names = rateNames(model.pose)) {
-  return poseRates(at, names).map((row, k) =>
-    row.map((value, column) => (value * model.scale[column]) / (isLength(names[k]) ? model.length : 1)),
-  );
 }

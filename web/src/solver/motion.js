@@ -42,32 +42,32 @@ export function blamed(model, reason) {
 export const inputsOf = (model, values) => model.inputs.map((item) => item.sign * values[item.index] + item.offset);
 
 /** From joint values of an assembly to printed inputs, lengths and rad, the assembly mode kept. @returns {Moved} */
-export function toInputs(model, values, target, options = {}) {
-  const held = model.inputs.map((item) => item.index);
-  const end = model.inputs.map((item, k) => (target[k] - item.offset) / item.sign);
-  const start = held.map((index) => values[index]);
+export function toInputs(model, values, target, options) {
+  const held = model.inputs.map(({ index }) => index);
+  const end = model.inputs.map(({ sign, offset }, k) => (target[k] - offset) / sign);
   const place = (current, t) => {
     const moved = current.slice();
-    held.forEach((index, k) => (moved[index] = start[k] + t * (end[k] - start[k])));
+    held.forEach((index, k) => (moved[index] = values[index] + t * (end[k] - values[index])));
     return moved;
   };
   const attempt = (current, t) => nearAssembly(model, place(current, t), held, null);
   const ask = (current) => closestApproach(model, place(current, 1), held, null);
-  return followed(model, values, attempt, ask, { ...options, side: "inputs" });
+  return followed(model, values, { side: "inputs", attempt, ask }, options);
 }
 
 /**
  * To a pose, lengths and rad, the working mode kept; `through` parallel singularities only if so asked, for no drive could
  * do that. @returns {Moved}
  */
-export function toPose(model, values, target, options = {}) {
+export function toPose(model, values, target, options) {
   const way = between(model, poseOf(model, values), target);
   const attempt = (current, t) => nearAssembly(model, current, [], way(t));
   const ask = (current) => closestApproach(model, current, [], target, 100);
-  return followed(model, values, attempt, ask, { ...options, side: "pose" });
+  return followed(model, values, { side: "pose", attempt, ask }, options);
 }
 
-function followed(model, start, attempt, ask, { side, limits = true, through = false }) {
+/** `attempt` is an assembly at a share of the way, `ask` what comes closest to its end. */
+function followed(model, start, { side, attempt, ask }, { limits = true, through = false } = {}) {
   const guard = limits ? guardsOf(model, start) : [];
   const borders = { parallel: !through, serial: side === "pose", passive: true };
   const forbidden = regularKinds(model).filter((kind) => borders[kind]);

@@ -10,8 +10,7 @@ import {
   times,
   toAngles,
   toQuaternion,
-  toVector,
-  transpose,
+  turnBetween,
 } from "./rotation.js";
 
 const LENGTHS = ["x", "y", "z"];
@@ -56,15 +55,16 @@ export function poseError(model, at, wanted) {
   const { pose, length } = model;
   const change = poseAt(model, at).map((value, k) => value - wanted[k]);
   if (rateNames(pose) === pose) return change.map((value, k) => (isLength(pose[k]) ? value : length * nearestTurn(value)));
-  const turn = toVector(multiply(at.platform.turn, transpose(turnOfPose(model, wanted))));
+  const turn = turnBetween(turnOfPose(model, wanted), at.platform.turn);
   return [...change.filter((_, k) => isLength(pose[k])), ...times(length, turn)];
 }
 
-/** Rates of the pose per rate of each joint value, rows as names have it. @returns {ArrayLike<number>[]} rows of n numbers */
-export function poseRates({ platform, moves }, names) {
+/** Rates of the pose per scaled rate of each joint value, both without dimensions. @returns {ArrayLike<number>[]} */
+export function poseRates({ pose, scale, length }, { platform, moves }, names = rateNames(pose)) {
   const [spins, velocities] = [moves.slice(0, 3), moves.slice(3)];
   const rows = [...velocities, ...angleRates(platform.turn, spins), ...spins];
-  return names.map((name) => rows[RATES.indexOf(name)]);
+  const scaled = (name) => (value, k) => (value * scale[k]) / (isLength(name) ? length : 1);
+  return names.map((name) => rows[RATES.indexOf(name)].map(scaled(name)));
 }
 
 /** Rates of phi, theta and psi of angular velocities, each a row. */
@@ -99,7 +99,7 @@ export function between(model, from, to) {
   const place = (t) => start.map((value, k) => value + t * change[k]);
   if (!hasQuaternion(model.pose)) return place;
   const first = turnOfPose(model, start);
-  const turn = toVector(multiply(turnOfPose(model, end), transpose(first)));
+  const turn = turnBetween(first, turnOfPose(model, end));
   return (t) => withQuaternion(model, place(t), multiply(fromVector(times(t, turn)), first));
 }
 

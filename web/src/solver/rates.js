@@ -1,9 +1,9 @@
 /** First-order numbers: how inputs move the pose, and how near that is to singular. */
 
-import { closureRows, scaledPoseRates } from "./closure.js";
+import { closureRows } from "./closure.js";
 import { configurationAt, once } from "./configuration.js";
 import { determinant, dot, nullSpace, singular } from "./leastsquares.js";
-import { hasAngles } from "./pose.js";
+import { hasAngles, poseRates } from "./pose.js";
 
 const ZERO = 1e-12; // a measure below this is 0: rounding alone leaves some 1e-14
 const RANK = 1e-8; // motions that move neither pose nor inputs by more stand still
@@ -15,7 +15,7 @@ const PARTS = 8; // of a step, in each of which its chord is looked at
 function pairsAt(model, values, names) {
   const at = configurationAt(model, values);
   const free = nullSpace(closureRows(model, at), model.count);
-  const rows = scaledPoseRates(model, at, names);
+  const rows = poseRates(model, at, names);
   for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
   const pairs = free.map((motion) => rows.map((row) => dot(row, motion)));
   return { free, rows, pairs };

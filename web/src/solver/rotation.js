@@ -83,6 +83,9 @@ export function toVector(r) {
   return times(sine > 0 ? (2 * Math.atan2(sine, cosine)) / sine : 2, axis);
 }
 
+/** The rotation vector that brings one orientation to another. @param {Matrix} from @param {Matrix} to @returns {Vector} */
+export const turnBetween = (from, to) => toVector(multiply(to, transpose(from)));
+
 /** @param {number[]} q scalar first @returns {Matrix} */
 export function fromQuaternion(q) {
   const size = Math.hypot(...q);
