@@ -14,6 +14,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import home_values
+from assur.kinematics.modes import without_letter
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
@@ -27,7 +28,6 @@ DRAFTS = {
     "biglide": parse_chains(["P[x] R[z]", "P[x] R[z] R[z]"]),
     "upright rails": parse_chains([HSOC, "P[z] P(4R)[y] P(4R)[x]"]),  # parallelograms in another order
     "Delta": arranged("Delta", "").chains,
-    "rails across": repeated("P[x] P(4S)[y]", 3),
     "ppr": repeated("P[x] P[y] R[z]", 3),
     "rrc": parse_chains(["R[x] R[x] C[x]", "R[y] R[y] C[y]", "R[z] R[z] C[z]"]),
 }
@@ -66,10 +66,10 @@ def test_answers_of_a_draft_are_those_of_its_joint_graph_by_the_same_names(both)
         for mode, inputs in answers[0].items():
             assert np.allclose(inputs, answers[1].get(mode, answers[1].get("")), rtol=0, atol=1e-7 * length)
         inputs = next(iter(answers[1].values()))
-        back = [{own.mode: own.pose for own in direct(record, inputs)} for record in both]
-        assert back[0].keys() <= back[1].keys()
-        for mode, own in back[0].items():
-            assert np.allclose(own, back[1][mode], rtol=0, atol=1e-6 * length)
+        back = [[(own.mode, own.pose) for own in direct(record, inputs)] for record in both]
+        for mode, own in back[0]:  # a letter after the signs is no name: which solution bears it depends on the order
+            alike = [pose for other, pose in back[1] if without_letter(other) == without_letter(mode)]
+            assert any(np.allclose(own, pose, rtol=0, atol=1e-6 * length) for pose in alike)
 
 
 def test_dimensions_without_which_no_loop_closes_are_told_as_relations(tmp_path):
