@@ -18,9 +18,9 @@ from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
-from assur.derivation.identities import NoIdentityError
 from assur.derivation.kept import derived_closed_form
 from assur.derivation.linear import value_of
+from assur.derivation.linear_span import NoIdentityError
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy
 
 from assur.derivation.definitions import Definition
+from assur.derivation.linear import Form
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.trigonometric import homogeneous
 
@@ -22,6 +23,8 @@ class AngleEliminant:
         known: formulas before it, in which the angle does not occur.
         entries: polynomials in its cosine and its sine.
         steps: polynomials in the entries; the last is the eliminant, which vanishes.
+        unknowns: which the lines say by Cramer's rule; of two and more steps the first is the determinant.
+        quadric: that vanishes beside the lines, with a symbol for each product of unknowns; {} where none is left.
         spare: how often 1 + t^2 divides it, where cosine, sine and 1 are 1 - t^2, 2 t and 1 + t^2.
         degree: in t, without these.
     """
@@ -30,6 +33,8 @@ class AngleEliminant:
     known: tuple[Definition, ...]
     entries: tuple[Definition, ...]
     steps: tuple[Definition, ...]
+    unknowns: tuple[sympy.Symbol, ...] = ()
+    quadric: Form = field(default_factory=dict)
     spare: int = 0
     degree: int = 0
 

@@ -22,7 +22,8 @@ from assur.derivation.elimination import SolvedSet
 from assur.derivation.linear import ONE, Form, divided, rank, replaced, solved, tidy, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
-from assur.derivation.trigonometric import reduced, trigonometric_terms
+from assur.derivation.reduced_quadrics import product_symbol, reduced_form, reduced_quadric
+from assur.derivation.trigonometric import trigonometric_terms
 from assur.derivation.witness import ModularWitness, NoResidueRootError
 
 ZERO = sympy.Integer(0)
@@ -157,7 +158,7 @@ def _leftover(
     left = tuple(unknown for unknown in unknowns if unknown not in values)
     forms = {unknown: values.get(unknown, {unknown: ONE}) for unknown in unknowns}
     curved_ones = [direction for direction in others if direction.kind != "stroke"]
-    quadrics = [_quadric(direction, forms, base, left, witness) for direction in curved_ones]
+    quadrics = [reduced_quadric(direction, forms, base, left, witness) for direction in curved_ones]
     monomials = sorted({key for form in quadrics for key in form if key not in left and key != ONE}, key=str)
     turning = any(form[key].free_symbols & {*base.unknowns} for form in quadrics for key in monomials if key in form)
     if turning and len(quadrics) > 1:
@@ -165,7 +166,7 @@ def _leftover(
     curved, plain = ({}, quadrics) if not monomials else solved(quadrics, monomials, witness, conditions)
     if turning:
         curved, plain = dict.fromkeys(monomials[:1], quadrics[0]), []
-    lines = sorted((_tidied(_divided(line, base), base, witness) for line in (*given, *plain)), key=_length)
+    lines = sorted((reduced_form(_divided(line, base), base, witness) for line in (*given, *plain)), key=_length)
     if len(lines) + len(curved) != len(left) + 1 or len(curved) > 1:
         raise NotDerivedError(
             f"with {base.name} taken as known, {len(lines)} linear equations and {len(curved)} quadrics are left "
@@ -184,38 +185,6 @@ def _kept(
         if rank(equations, unknowns, witness) == len(unknowns):
             return direction.unknowns
     return ()
-
-
-def _quadric(
-    direction: UnknownDirection,
-    values: Mapping[sympy.Symbol, Form],
-    base: UnknownDirection,
-    unknowns: Sequence[sympy.Symbol],
-    witness: ModularWitness,
-) -> Form:
-    """The sum of squares less 1, with a symbol for each product of two unknowns."""
-    total: Form = {ONE: -ONE}
-    for own in direction.unknowns:
-        inner = [key for key in unknowns if key in values[own]]
-        rest = value_of({key: part for key, part in values[own].items() if key not in inner})
-        for k, a in enumerate(inner):
-            for b in inner[k:]:
-                share = values[own][a] * values[own][b] * (1 if a == b else 2)
-                total[_product(a, b)] = total.get(_product(a, b), ZERO) + share
-            total[a] = total.get(a, ZERO) + 2 * values[own][a] * rest
-        total[ONE] += rest**2
-    return _tidied(total, base, witness)
-
-
-def _product(a: sympy.Symbol, b: sympy.Symbol) -> sympy.Symbol:
-    """The symbol of a product of two unknowns."""
-    return sympy.Symbol("*".join(sorted((a.name, b.name))), real=True)
-
-
-def _tidied(form: Form, base: UnknownDirection, witness: ModularWitness) -> Form:
-    """Coefficients modulo the circle of the base, without those that vanish."""
-    plain = {key: reduced(tidy(part), base.unknowns, witness) for key, part in form.items()}
-    return {key: part for key, part in plain.items() if part != 0}
 
 
 def _divided(form: Form, base: UnknownDirection) -> Form:
@@ -262,7 +231,7 @@ def _eliminant(left: _Leftover, names: FreeNames) -> AngleEliminant:
             homogeneous[unknown] = steps[-1].symbol
     last = _determinant(rows) if not left.quadric else _at(left, homogeneous, one, entry)
     steps.append(Definition(names.named("elim"), last))
-    return AngleEliminant(left.base, (), tuple(entries.values()), tuple(steps))
+    return AngleEliminant(left.base, (), tuple(entries.values()), tuple(steps), left.unknowns, left.quadric)
 
 
 def _at(
@@ -272,7 +241,7 @@ def _at(
     entry: Callable[[sympy.Expr], sympy.Expr],
 ) -> sympy.Expr:
     """The quadric where the unknowns are `values` over `one`, times the square of that."""
-    products = {_product(a, b): values[a] * values[b] for a in left.unknowns for b in left.unknowns}
+    products = {product_symbol(a, b): values[a] * values[b] for a in left.unknowns for b in left.unknowns}
     products |= {a: values[a] * one for a in left.unknowns} | {ONE: one**2}
     return sum((entry(part) * products[key] for key, part in left.quadric.items()), ZERO)
 

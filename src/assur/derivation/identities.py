@@ -13,90 +13,11 @@ from dataclasses import dataclass
 import sympy
 
 from assur.derivation.elimination import Root, SolvedSet
-from assur.derivation.linear import ONE, Form, form_of, projected, rank, replaced, solved, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.linear import ONE, Form, form_of, solved, tidy, value_of
+from assur.derivation.linear_span import ZERO, LinearSpan, Multipliers, NoIdentityError, times, total_of, unit
 from assur.derivation.strokes import StrokeVector
 from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import Vector, cross, dot, scaled, subtract
-
-ZERO = sympy.Integer(0)
-Multipliers = dict[str, sympy.Expr]
-"""Name of an equation -> by what it is multiplied."""
-
-
-class NoIdentityError(ArithmeticError):
-    """What is no sum of multiples of the equations that are known here."""
-
-
-class LinearSpan:
-    """Sums of multiples of linear equations.
-
-    Args:
-        rows: name of an equation -> its form, that vanishes; one that follows of those before it is left out.
-        unknowns: whose coefficients are compared one by one; all else is known.
-        witness: tells what vanishes.
-        lengths: unknowns along unit vectors, whose equations are projected on these first: then nothing is divided.
-
-    >>> x, y = sympy.symbols("x y")
-    >>> span = LinearSpan({"e1": {x: ONE, y: ONE}, "e2": {y: ONE, ONE: -ONE}}, [x, y], ModularWitness())
-    >>> span.multipliers({x: ONE, ONE: ONE})
-    {'e1': 1, 'e2': -1}
-    """
-
-    def __init__(
-        self,
-        rows: Mapping[str, Form],
-        unknowns: Sequence[sympy.Symbol],
-        witness: ModularWitness,
-        lengths: Sequence[sympy.Symbol] = (),
-    ) -> None:
-        self._witness, self._unknowns, self._lengths = witness, unknowns, lengths
-        self._rows: dict[str, Form] = {}
-        for name, form in rows.items():
-            if not self._spanned(form, self._rows):
-                self._rows[name] = form
-
-    def multipliers(self, target: Form) -> Multipliers:
-        """Of each equation in a form. Errors: NoIdentityError."""
-        rows = dict(self._rows)
-        if not self._spanned(target, rows):
-            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
-        for name in self._rows:
-            fewer = {other: form for other, form in rows.items() if other != name}
-            if self._spanned(target, fewer):
-                rows = fewer
-        tags = {sympy.Dummy(name): name for name in rows}
-        tagged = [{**form, tag: -ONE} for tag, form in zip(tags, rows.values(), strict=True)]
-        lengths, left = projected(
-            tagged, [own for own in self._lengths if any(own in form for form in tagged)], self._witness
-        )
-        values, _ = solved(left, self._unknowns, self._witness)
-        values = {length: replaced(form, values, self._witness) for length, form in lengths.items()} | values
-        rest = replaced(target, values, self._witness)
-        known = value_of({key: part for key, part in rest.items() if key not in tags})
-        if not self._witness.is_zero(known):
-            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
-        return {name: _plain(rest[tag]) for tag, name in tags.items() if tag in rest}
-
-    def _spanned(self, target: Form, rows: Mapping[str, Form]) -> bool:
-        """Whether the coefficients of unknowns are those of a sum of multiples of rows."""
-        keys, forms = (*self._lengths, *self._unknowns), [*rows.values()]
-        return rank([*forms, target], keys, self._witness) == rank(forms, keys, self._witness)
-
-
-def _plain(share: sympy.Expr) -> sympy.Expr:
-    """A quotient without roots below, where more cancels so.
-
-    >>> x, y = sympy.symbols("x y")
-    >>> _plain((sympy.sqrt(3) * x + y) / (3 * x + sympy.sqrt(3) * y))
-    sqrt(3)/3
-    """
-    over, under = map(sympy.expand, sympy.fraction(share))
-    for root in sorted(under.atoms(sympy.Pow), key=str):
-        if root.exp == sympy.Rational(1, 2) and under.is_Add:
-            other = under.subs(root, -root)
-            over, under = sympy.expand(over * other), sympy.expand(under * other)
-    return min(share, tidy(over / under), key=lambda own: int(sympy.count_ops(own)))
 
 
 @dataclass(frozen=True)
@@ -115,21 +36,10 @@ class SetIdentities:
     formulas: Mapping[sympy.Symbol, Multipliers]
 
 
-def unit(direction: UnknownDirection) -> str:
-    """The name of the equation that a direction's quadric is.
-
-    >>> unit(UnknownDirection("circle", "crank", sympy.symbols("c s"), ("crank",)))
-    'unit crank'
-    """
-    return f"unit {direction.name}"
-
-
 def set_identities(
     part: SolvedSet, loops: LinearSpan, vectors: Sequence[StrokeVector], witness: ModularWitness
 ) -> SetIdentities:
-    """The identities of a set that square roots solve. Errors: NoIdentityError, of a set with a polynomial too."""
-    if part.eliminant is not None:
-        raise NoIdentityError(f"identities are written of square roots alone, and {part.name} have a polynomial")
+    """The identities of a set that square roots solve. Errors: NoIdentityError."""
     return _SetOfRoots(part, loops, vectors, witness).identities()
 
 
@@ -157,7 +67,7 @@ class _SetOfRoots:
         lines = tuple(self._line(form) for form in self.part.lines)
         formulas: dict[sympy.Symbol, Multipliers] = {}
         for vector in self.vectors:
-            formulas |= self._stroke(vector)
+            formulas |= stroke_identities(self.part, vector, self.witness)
         for root in self.part.roots:
             if root.symbol not in formulas:
                 formulas[root.symbol] = self._square(root)
@@ -200,12 +110,12 @@ class _SetOfRoots:
             a, b, d = (
                 self._short(part) for part in (form.get(cosine, ZERO), form.get(sine, ZERO), -form.get(ONE, ZERO))
             )
-            return _sum({unit(self.base): a**2 + b**2}, _times(shares, -(a * cosine + b * sine + d)))
+            return total_of({unit(self.base): a**2 + b**2}, times(shares, -(a * cosine + b * sine + d)))
         (n, h), (m, k) = (self._plane(form) for form, _ in self.planes[:2])
         e, square = self.base.unknowns, self._across(n, m)[1]
         both = subtract(scaled(n, dot(m, e) + k), scaled(m, dot(n, e) + h))
         (_, first), (_, second) = self.planes[:2]
-        return _sum({unit(self.base): square}, _times(first, dot(m, both)), _times(second, -dot(n, both)))
+        return total_of({unit(self.base): square}, times(first, dot(m, both)), times(second, -dot(n, both)))
 
     def _plane(self, form: Form) -> tuple[Vector, sympy.Expr]:
         x, y, z = (self._short(form.get(key, ZERO)) for key in self.base.unknowns)
@@ -237,33 +147,22 @@ class _SetOfRoots:
         a, b = (self._short(form.get(key, ZERO)) for key in self.base.unknowns)
         if a == 0 or b == 0:
             return {}
-        return _times(shares, (a if unknown == cosine else b) / self._short(a**2 + b**2))
+        return times(shares, (a if unknown == cosine else b) / self._short(a**2 + b**2))
 
     def _on_sphere(self, unknown: sympy.Symbol) -> Multipliers:
         """W.w e - (h m x w + k w x n + w (w.e)) = (m x w) (n.e - h) + (w x n) (m.e - k)."""
         ((n, _), (m, _)), place = (self._plane(form) for form, _ in self.planes[:2]), self.base.unknowns.index(unknown)
         w, square = self._across(n, m)
         (_, first), (_, second) = self.planes[:2]
-        return _sum(_times(first, cross(m, w)[place] / square), _times(second, cross(w, n)[place] / square))
-
-    def _stroke(self, vector: StrokeVector) -> dict[sympy.Symbol, Multipliers]:
-        """Length and angle of a vector by the quadric of the angle's circle."""
-        reach, (x, y) = vector.length + vector.along, vector.direction.unknowns
-        name, size = unit(vector.circle), reach**2 + vector.beside**2
-        root = next(own for own in self.part.roots if self.witness.is_zero(own.quantity - reach))
-        angle = {
-            own: {name: own * size / (x**2 + y**2)} if vector.beside != 0 else {} for own in vector.circle.unknowns
-        }
-        return {root.symbol: {name: -size}, vector.length: {}} | angle
+        return total_of(times(first, cross(m, w)[place] / square), times(second, cross(w, n)[place] / square))
 
 
-def _sum(*parts: Multipliers) -> Multipliers:
-    total: Multipliers = {}
-    for part in parts:
-        for name, share in part.items():
-            total[name] = total.get(name, ZERO) + share
-    return total
-
-
-def _times(shares: Multipliers, factor: sympy.Expr) -> Multipliers:
-    return {name: share * factor for name, share in shares.items()}
+def stroke_identities(
+    part: SolvedSet, vector: StrokeVector, witness: ModularWitness
+) -> dict[sympy.Symbol, Multipliers]:
+    """Length and angle of a vector by the quadric of the angle's circle."""
+    reach, (x, y) = vector.length + vector.along, vector.direction.unknowns
+    name, size = unit(vector.circle), reach**2 + vector.beside**2
+    root = next(own for own in part.roots if witness.is_zero(own.quantity - reach))
+    angle = {own: {name: own * size / (x**2 + y**2)} if vector.beside != 0 else {} for own in vector.circle.unknowns}
+    return {root.symbol: {name: -size}, vector.length: {}} | angle

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import sympy
 
+from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.elimination import SolvedSet
-from assur.derivation.identities import LinearSpan, Multipliers, NoIdentityError, set_identities, unit
+from assur.derivation.identities import SetIdentities, set_identities
 from assur.derivation.linear import Form, form_of, value_of
+from assur.derivation.linear_span import LinearSpan, Multipliers, NoIdentityError, unit
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import Orientation
+from assur.derivation.polynomial_identities import PolynomialIdentities, polynomial_identities
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import turning_in_space
 from assur.derivation.strokes import StrokeVector, stroke_vectors
 from assur.results.answers.derivation import (
     DerivationProof,
     ProvedOrientation,
+    ProvedPolynomial,
     ProvedReason,
     ProvedSet,
 )
@@ -71,12 +76,11 @@ class _Proof:
         }
         left = [own for direction in self.directions for own in direction.unknowns if own not in done]
         rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
-        own = set_identities(part, LinearSpan(rows, left, self.witness, self.fixed), self.vectors, self.witness)
-        return ProvedSet(
-            tuple(map(_texts, own.equations)),
-            tuple(map(_texts, own.lines)),
-            {str(symbol): _texts(shares) for symbol, shares in own.formulas.items()},
-        )
+        span = LinearSpan(rows, left, self.witness, self.fixed)
+        if part.eliminant is not None:
+            coupled = polynomial_identities(part, part.eliminant, span, self.vectors, self.witness)
+            return replace(_proved(coupled), polynomial=_polynomial(part.eliminant, coupled))
+        return _proved(set_identities(part, span, self.vectors, self.witness))
 
     def _within(self, form: Form, unknowns: Sequence[sympy.Symbol]) -> Form:
         """A form in which everything else is known."""
@@ -114,6 +118,26 @@ class _Proof:
             f"{coordinates[index].joint}.{coordinates[index].component}": str(symbol)
             for index, symbol in self.loops.lengths.items()
         }
+
+
+def _proved(own: SetIdentities) -> ProvedSet:
+    return ProvedSet(
+        tuple(map(_texts, own.equations)),
+        tuple(map(_texts, own.lines)),
+        {str(symbol): _texts(shares) for symbol, shares in own.formulas.items()},
+    )
+
+
+def _polynomial(eliminant: AngleEliminant, own: PolynomialIdentities) -> ProvedPolynomial:
+    cosine, sine = map(str, eliminant.direction.unknowns)
+    return ProvedPolynomial(
+        (cosine, sine),
+        str(eliminant.steps[-1].symbol),
+        eliminant.degree,
+        f"{value_of(eliminant.quadric)} = 0" if eliminant.quadric else "",
+        _texts(own.quadric),
+        _texts(own.polynomial),
+    )
 
 
 def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:

@@ -11,7 +11,7 @@ import math
 import secrets
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Self
 
 from flint import fmpz
 
@@ -44,20 +44,28 @@ class Element:
     b: int = 0
 
     def __add__(self, other: Any) -> Element:
+        if not isinstance(other, (Element, int, Fraction)):
+            return NotImplemented
         own = self.of(other)
         return Element(self.p, (self.a + own.a) % self.p, (self.b + own.b) % self.p)
 
     def __sub__(self, other: Any) -> Element:
+        if not isinstance(other, (Element, int, Fraction)):
+            return NotImplemented
         own = self.of(other)
         return Element(self.p, (self.a - own.a) % self.p, (self.b - own.b) % self.p)
 
     def __mul__(self, other: Any) -> Element:
+        if not isinstance(other, (Element, int, Fraction)):
+            return NotImplemented
         own, p = self.of(other), self.p
         if not self.b and not own.b:
             return Element(p, self.a * own.a % p)
         return Element(p, (self.a * own.a - self.b * own.b) % p, (self.a * own.b + self.b * own.a) % p)
 
     def __truediv__(self, other: Any) -> Element:
+        if not isinstance(other, (Element, int, Fraction)):
+            return NotImplemented
         own, p = self.of(other), self.p
         size = (own.a * own.a + own.b * own.b) % p
         if not size:
@@ -130,7 +138,7 @@ class CircleField:
         self._drawn: dict[tuple[str, int], tuple[Element, Element]] = {}
         self._turn = self._generator()
 
-    def fresh(self) -> CircleField:
+    def fresh(self) -> Self:
         """The same field, where other angles are drawn."""
         other = copy.copy(self)
         other._drawn = {}

@@ -92,16 +92,35 @@ class ProvedReason:
 
 
 @dataclass(frozen=True)
+class ProvedPolynomial:
+    """The polynomial by whose roots a coupled set is solved.
+
+    It is the formula `vanishes` in the cosine and the sine of `circle`, of `degree` in the tangent of half that angle.
+    By `shares` it is a sum of lines and of `quadric`, called `q`, that is one of equations and squares by `given`; ""
+    and nothing where there is none.
+    """
+
+    circle: tuple[str, str]
+    vanishes: str
+    degree: int
+    quadric: str
+    given: Multiples
+    shares: Multiples
+
+
+@dataclass(frozen=True)
 class ProvedSet:
     """Of a set why its equations hold, its lines, and its formulas: each a sum of multiples of equations.
 
     `equations` are sums of loop equations; `lines` of `e1` .. and of squares `unit <link>`; what a symbol is less its
-    formula, and the square of a root less its radicand, of these and of lines `l1` .., its quantity for a root.
+    formula, and the square of a root less its radicand, of these and of lines `l1` .., its quantity for a root. With a
+    polynomial all of them hold modulo its circle.
     """
 
     equations: tuple[Multiples, ...]
     lines: tuple[Multiples, ...]
     formulas: Mapping[str, Multiples]
+    polynomial: ProvedPolynomial | Absent = ABSENT
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,18 @@
 """Branches of a derivation held against the joint graph of the file: modulo a prime, at a place that is drawn.
 
-A formula that is wrong closes the loops there by chance alone, with a probability of its degree over 2^160.
+A formula that is wrong closes the loops there by chance alone, with a probability of its degree over 2^160. Of a
+polynomial all roots are looked at together, as a number t modulo it; so are both signs of roots that follow of it.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from assur.verifier.derivations.assembly import FileAssembly, given_names
+from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
 from assur.verifier.derivations.turning import ClaimedTurn, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
@@ -20,15 +22,22 @@ from assur.verifier.vectors import Matrix, Vector, apply, product, subtract, tra
 
 TRIES = 200
 """Places that are drawn until every radicand has a root there."""
+FEW = 20
+"""Of them modulo one prime."""
 MOST = 64
 """Branches that are looked at, of more the first."""
 
 
 class _Place(CircleField):
-    """A prime field in which numbers that are drawn have roots too."""
+    """A prime field in which numbers that are drawn have roots too, and numbers at the roots of a polynomial."""
 
-    def root(self, value: Any) -> Element:
+    last: RootNumber | None = None
+
+    def root(self, value: Any) -> Any:
         """A root; of what stands for a rational of few digits that of the rational."""
+        if isinstance(value, RootNumber):
+            self.last = value.root(self.last)
+            return self.last
         if not isinstance(value, Element):
             return super().root(value)
         plain_one = few_digits(value)
@@ -38,17 +47,18 @@ class _Place(CircleField):
 def closing_branches(mechanism: FileMechanism, problem: Mapping[str, Any], conditions: Sequence[str]) -> int:
     """How many branches were looked at, each of which closes every loop. Errors: RefusedError."""
     field = _Place()
-    for _ in range(TRIES):
+    for number in range(TRIES):
         try:
             place = _DrawnBranches(mechanism, problem, field.fresh())
             return place.closing(conditions)
         except NoRootError:
-            continue
+            if number % FEW == FEW - 1:
+                field = _Place()  # where other numbers have roots
     raise RefusedError("the formulas have no values")
 
 
 class _DrawnBranches:
-    def __init__(self, mechanism: FileMechanism, problem: Mapping[str, Any], field: CircleField) -> None:
+    def __init__(self, mechanism: FileMechanism, problem: Mapping[str, Any], field: _Place) -> None:
         self.problem, self.field = problem, field
         self.names: dict[str, Any] = {
             name: AngleSum({name: Fraction(1)}) if unit else field.uniform()
@@ -62,30 +72,69 @@ class _DrawnBranches:
         self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero)
 
     def closing(self, conditions: Sequence[str]) -> int:
-        roots = [choice["root"] for own in self.problem["sets"] for choice in own["choices"]]
+        """How many branches close, of as many as are looked at."""
+        roots = list(self._roots_before())
         looked = 0
         seen = set[tuple[tuple[int, int], ...]]()
         for signs in itertools.islice(itertools.product((1, -1), repeat=len(roots)), MOST):
             values = self._branch(dict(zip(roots, signs, strict=True)))
-            if any(_zero(self._value(text.removesuffix(" != 0"), values)) for text in conditions):
-                raise RefusedError("a condition that never holds")
+            self._hold(conditions, values)
             self._closed(values)
             seen.add(tuple((values[root].a, values[root].b) for root in roots))
             looked += 1
         if len(seen) != looked:
             raise RefusedError("branches that are one")
-        return looked
+        return int(looked * self.problem["branches"] // 2 ** len(roots))
+
+    def _hold(self, conditions: Sequence[str], values: Mapping[str, Any]) -> None:
+        """Conditions hold at what is drawn, and at every root of the polynomial."""
+        for text in conditions:
+            own = self._value(text.removesuffix(" != 0"), values)
+            if _zero(own):
+                raise RefusedError("a condition that never holds")
+            if isinstance(own, RootNumber):
+                own.inverse()
+
+    def _roots_before(self) -> Iterator[str]:
+        """Roots of what is drawn, of which a sign is chosen: those before a polynomial."""
+        for own, proved in self._sets():
+            if "polynomial" in proved:
+                return
+            yield from (choice["root"] for choice in own["choices"])
+
+    def _sets(self) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
+        return zip(self.problem["sets"], self.problem["proof"]["sets"], strict=True)
 
     def _value(self, text: str, values: Mapping[str, Any]) -> Any:
         own = plain(value(text, values, self.field, len(text)), self.field)
-        return own if isinstance(own, Element) else self.field.number(Fraction(own))
+        return own if isinstance(own, (Element, RootNumber)) else self.field.number(Fraction(own))
 
     def _branch(self, signs: Mapping[str, int]) -> dict[str, Any]:
         values = dict(self.values)
-        formulas = [item for own in self.problem["sets"] for item in own["formulas"].items()]
-        for name, text in [*formulas, *self.problem["lengths"].items()]:
-            values[name] = self._value(text, values) * signs.get(name, 1)
+        self.field.last = None
+        for own, proved in self._sets():
+            if "polynomial" in proved:
+                self._at_roots(own["formulas"], proved["polynomial"], values)
+            self._work_out(own["formulas"], values, signs)
+        self._work_out(self.problem["lengths"], values, signs)
         return values
+
+    def _work_out(self, formulas: Mapping[str, str], values: dict[str, Any], signs: Mapping[str, int]) -> None:
+        for name, text in formulas.items():
+            values[name] = self._value(text, values) * signs.get(name, 1)
+
+    def _at_roots(self, formulas: Mapping[str, str], own: Mapping[str, Any], values: dict[str, Any]) -> None:
+        """Cosine and sine of the circle that the polynomial is about, at all of its roots."""
+        names, last = [*formulas], own["vanishes"]
+        before = {name: formulas[name] for name in names[: names.index(last) + 1]}
+
+        def vanishing(cosine: Element, sine: Element) -> Any:
+            inside = values | dict(zip(own["circle"], (cosine, sine), strict=True))
+            self._work_out(before, inside, {})
+            return inside[last]
+
+        polynomial = interpolated(vanishing, int(own["degree"]), self.field.p)
+        values |= dict(zip(own["circle"], circle_at_roots(polynomial), strict=True))
 
     def _closed(self, values: Mapping[str, Any]) -> None:
         proof = self.problem["proof"]
@@ -126,4 +175,4 @@ class _DrawnBranches:
 
 
 def _zero(number: Any) -> bool:
-    return number.zero if isinstance(number, Element) else bool(number == 0)
+    return number.zero if isinstance(number, (Element, RootNumber)) else bool(number == 0)

@@ -221,6 +221,20 @@ class Quotients:
         """Whether a term vanishes."""
         return bool(self.fraction(own)[0] == 0)
 
+    def degree(self, own: Term, cosine: str, sine: str) -> int:
+        """The least degree of a term in cosine and sine of an angle, of which the square of the sine is known.
+
+        In the tangent of half the angle it is a polynomial of twice that degree, over as high a power of 1 + t^2.
+
+        Errors:
+            NoExactError: it vanishes, or is divided by what turns.
+        """
+        over, under = self.fraction(own)
+        places = [self._places[name] for name in (cosine, sine) if name in self._places]
+        if over == 0 or any(under.degrees()[place] for place in places):
+            raise NoExactError(f"no polynomial in {cosine} and {sine}")
+        return max(sum(int(powers[place]) for place in places) for powers in over.to_dict())
+
     def constant(self, own: Term) -> Fraction | None:
         """The rational that a term is."""
         over, under = self.fraction(own)

@@ -1,0 +1,113 @@
+"""Sums of multiples of linear equations: what follows of them, and by which multipliers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import sympy
+
+from assur.derivation.linear import ONE, Form, projected, rank, replaced, solved, tidy, value_of
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.witness import ModularWitness
+
+ZERO = sympy.Integer(0)
+Multipliers = dict[str, sympy.Expr]
+"""Name of an equation -> by what it is multiplied."""
+
+
+class NoIdentityError(ArithmeticError):
+    """What is no sum of multiples of the equations that are known here."""
+
+
+class LinearSpan:
+    """Sums of multiples of linear equations.
+
+    Args:
+        rows: name of an equation -> its form, that vanishes; one that follows of those before it is left out.
+        unknowns: whose coefficients are compared one by one; all else is known.
+        witness: tells what vanishes.
+        lengths: unknowns along unit vectors, whose equations are projected on these first: then nothing is divided.
+
+    >>> x, y = sympy.symbols("x y")
+    >>> span = LinearSpan({"e1": {x: ONE, y: ONE}, "e2": {y: ONE, ONE: -ONE}}, [x, y], ModularWitness())
+    >>> span.multipliers({x: ONE, ONE: ONE})
+    {'e1': 1, 'e2': -1}
+    """
+
+    def __init__(
+        self,
+        rows: Mapping[str, Form],
+        unknowns: Sequence[sympy.Symbol],
+        witness: ModularWitness,
+        lengths: Sequence[sympy.Symbol] = (),
+    ) -> None:
+        self._witness, self._unknowns, self._lengths = witness, unknowns, lengths
+        self._rows: dict[str, Form] = {}
+        for name, form in rows.items():
+            if not self._spanned(form, self._rows):
+                self._rows[name] = form
+
+    def multipliers(self, target: Form) -> Multipliers:
+        """Of each equation in a form. Errors: NoIdentityError."""
+        rows = dict(self._rows)
+        if not self._spanned(target, rows):
+            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
+        for name in self._rows:
+            fewer = {other: form for other, form in rows.items() if other != name}
+            if self._spanned(target, fewer):
+                rows = fewer
+        tags = {sympy.Dummy(name): name for name in rows}
+        tagged = [{**form, tag: -ONE} for tag, form in zip(tags, rows.values(), strict=True)]
+        lengths, left = projected(
+            tagged, [own for own in self._lengths if any(own in form for form in tagged)], self._witness
+        )
+        values, _ = solved(left, self._unknowns, self._witness)
+        values = {length: replaced(form, values, self._witness) for length, form in lengths.items()} | values
+        rest = replaced(target, values, self._witness)
+        known = value_of({key: part for key, part in rest.items() if key not in tags})
+        if not self._witness.is_zero(known):
+            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
+        return {name: _plain(rest[tag]) for tag, name in tags.items() if tag in rest}
+
+    def _spanned(self, target: Form, rows: Mapping[str, Form]) -> bool:
+        """Whether the coefficients of unknowns are those of a sum of multiples of rows."""
+        keys, forms = (*self._lengths, *self._unknowns), [*rows.values()]
+        return rank([*forms, target], keys, self._witness) == rank(forms, keys, self._witness)
+
+
+def _plain(share: sympy.Expr) -> sympy.Expr:
+    """A quotient without roots below, where more cancels so.
+
+    >>> x, y = sympy.symbols("x y")
+    >>> _plain((sympy.sqrt(3) * x + y) / (3 * x + sympy.sqrt(3) * y))
+    sqrt(3)/3
+    """
+    over, under = map(sympy.expand, sympy.fraction(share))
+    for root in sorted(under.atoms(sympy.Pow), key=str):
+        if root.exp == sympy.Rational(1, 2) and under.is_Add:
+            other = under.subs(root, -root)
+            over, under = sympy.expand(over * other), sympy.expand(under * other)
+    return min(share, tidy(over / under), key=lambda own: int(sympy.count_ops(own)))
+
+
+def unit(direction: UnknownDirection) -> str:
+    """The name of the equation that a direction's quadric is.
+
+    >>> unit(UnknownDirection("circle", "crank", sympy.symbols("c s"), ("crank",)))
+    'unit crank'
+    """
+    return f"unit {direction.name}"
+
+
+def total_of(*parts: Multipliers) -> Multipliers:
+    """The multipliers of a sum."""
+    total: Multipliers = {}
+    for part in parts:
+        for name, share in part.items():
+            total[name] = total.get(name, ZERO) + share
+    return total
+
+
+def times(shares: Multipliers, factor: sympy.Expr) -> Multipliers:
+    """The multipliers of a multiple."""
+    return {name: share * factor for name, share in shares.items()}

@@ -1,0 +1,151 @@
+"""Orientations as a derivation claims them, each held against what the joints of the file say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from assur.verifier.derivations.assembly import FileAssembly
+from assur.verifier.derivations.known_formulas import KnownFormulas
+from assur.verifier.derivations.terms import Term
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, point, reached, rods, same
+from assur.verifier.reading import RefusedError
+from assur.verifier.vectors import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
+
+
+class OrientationCheck:
+    """The orientations of a proof.
+
+    Args:
+        assembly: the joint graph; reasons that hold are added to its hops.
+        formulas: by which texts are read.
+        proof: as it is written.
+    """
+
+    def __init__(self, assembly: FileAssembly, formulas: KnownFormulas, proof: Mapping[str, Any]) -> None:
+        self.assembly, self.mechanism, self.formulas, self.proof = assembly, assembly.mechanism, formulas, proof
+        self.zero = formulas.zero
+
+    def _vector(self, parts: Any) -> Vector:
+        x, y, z = (_plain(self.formulas.read(part)) for part in parts)
+        return x, y, z
+
+    def _matrix(self, rows: Any) -> Matrix:
+        a, b, c = map(self._vector, rows)
+        return a, b, c
+
+    def _tidy(self, turn: Matrix) -> Matrix:
+        """0, 1 and -1 where an entry is that."""
+
+        def entry(own: Any) -> Any:
+            if not isinstance(own, Term):
+                return own
+            constant = self.formulas.quotients([own], {}).constant(own)
+            return int(constant) if constant in (0, 1, -1) else own
+
+        a, b, c = (tuple(map(entry, row)) for row in turn)
+        return a, b, c
+
+    def _reached(self, root: str, axis: Vector | None) -> dict[str, Matrix]:
+        return reached(self.assembly.hops, root, axis, self.zero, self._tidy)
+
+    def turns(self) -> dict[str, ClaimedTurn]:
+        """Orientations as they are claimed, each held against what the joints say."""
+        for reason in self.proof["reasons"]:
+            self._reason(reason)
+        turns: dict[str, ClaimedTurn] = {}
+        for own in self.proof["orientations"]:
+            axis, hinge, line = (
+                None if own[key] is None else self._vector(own[key]) for key in ("axis", "hinge", "line")
+            )
+            circle, rod = (None if own[key] is None else tuple(map(str, own[key])) for key in ("circle", "rod"))
+            turn = ClaimedTurn(own["link"], own["kind"], self._matrix(own["constant"]), axis, circle, hinge, line, rod)
+            turns[turn.link] = turn
+        fixed = self._reached(self.mechanism.base, None)
+        for turn in turns.values():
+            if turn.kind == "fixed":
+                fine = turn.link in fixed and same(fixed[turn.link], turn.constant, self.zero)
+            elif turn.kind == "circle" and turn.axis is not None:
+                fine = self._on_circle(turn, turn.axis, turns)
+            else:
+                fine = turn.kind == "rod" and turn.rod is not None and self._on_rod(turn, turns)
+            if not fine:
+                raise RefusedError(f"the joints do not say that {turn.link} is turned so")
+        return turns
+
+    def _reason(self, reason: Mapping[str, Any]) -> None:
+        """A link that hangs on another along two directions does not turn against it."""
+        carrier, link, constant = str(reason["carrier"]), str(reason["link"]), self._matrix(reason["constant"])
+        axes = self._vector(reason["first"]), self._vector(reason["second"])
+        across = [self.zero(part) for part in cross(*axes)]
+        fine = not all(across) and is_rotation(constant, self.zero)
+        for axis in axes:
+            own = self._reached(carrier, axis).get(link)
+            fine = fine and own is not None and fixes(product(constant, transposed(own)), axis, self.zero)
+        if not fine:
+            raise RefusedError(f"the joints do not say that {link} does not turn against {carrier}")
+        self.assembly.hops.append(Hop(carrier, link, constant))
+
+    def _on_circle(self, turn: ClaimedTurn, axis: Vector, turns: Mapping[str, ClaimedTurn]) -> bool:
+        """It turns about the axis alone, as far as the first link does that has the same unknowns."""
+        own = self._reached(self.mechanism.base, axis).get(turn.link)
+        if own is None or not self.zero(plus(dot(axis, axis), -1)):
+            return False
+        psi = product(turn.constant, transposed(own))
+        leader = next(o for o in turns.values() if o.circle == turn.circle and o.kind == "circle")
+        if turn.circle is None or leader is turn:
+            return is_rotation(psi, self.zero) and fixes(psi, axis, self.zero)
+        between = self._reached(leader.link, None).get(turn.link)
+        alike = leader.axis is not None and all(map(self.zero, subtract(axis, leader.axis)))
+        return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+
+    def _on_rod(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
+        """A link between two balls, or one on a hinge across the axis about which its carrier turns."""
+        line, hinge, graph = turn.line, turn.hinge, self.assembly.graph
+        if line is None or not self.zero(plus(dot(line, line), -1)):
+            return False
+        leader = next(own for own in turns.values() if own.rod == turn.rod)
+        parallel = any(
+            {leader.link, turn.link} == {*rods(self.mechanism, own)} for own in self.mechanism.parallelograms
+        )
+        if hinge is None:
+            joints = [name for name, own in self.mechanism.joints.items() if turn.link in (own.parent, own.child)]
+            balls = all(self.mechanism.joints[name].type == "spherical" for name in joints)
+            near, far = (point(graph, name, turn.link) for name in joints)
+            straight = all(map(self.zero, cross(line, subtract(far, near))))
+            return balls and straight and (leader is turn or parallel) and same(turn.constant, ONE, self.zero)
+        axis = turn.axis
+        if axis is None or not all(self.zero(dot(*pair)) for pair in ((hinge, axis), (hinge, line))):
+            return False
+        if leader is not turn:
+            between = self._reached(leader.link, None).get(turn.link)
+            return between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+        return any(self._carries(own, turn, axis, hinge) for own in self.assembly.hops)
+
+    def _carries(self, hop: Hop, turn: ClaimedTurn, axis: Vector, hinge: Vector) -> bool:
+        """Whether a hop is the hinge of a rod: Rot(axis, psi) Rot(hinge, phi) constant is its orientation."""
+        inside = self._reached(turn.link, None)
+        for start, end, forward in ((hop.start, hop.end, True), (hop.end, hop.start, False)):
+            carried = self._reached(self.mechanism.base, axis).get(start)
+            if hop.axis is None or end not in inside or carried is None:
+                continue
+            after = hop.after if forward else transposed(hop.after)
+            along = hop.axis if forward else apply(transposed(hop.after), hop.axis)
+            whole = product(product(carried, after), transposed(inside[end]))
+            own = apply(carried, along)
+            # the carrier's psi may count from elsewhere: then the hinge tells from where
+            turned = product(turn.constant, transposed(whole))
+            if (
+                all(map(self.zero, cross(own, hinge)))
+                and fixes(turned, hinge, self.zero)
+                and is_rotation(turned, self.zero)
+            ):
+                return True
+        return False
+
+
+def _plain(own: Any) -> Any:
+    """0, 1 and -1 as integers."""
+    if isinstance(own, Term) and own.kind == "number" and own.parts[0] in (0, 1, -1):
+        return int(own.parts[0])
+    return own
