@@ -19,6 +19,7 @@ KINDS = {
     "loops": "formulas as machine code",
     "closed_forms": "closed forms that have passed",
     "readings": "mechanisms' files as they were read",
+    "programs": "programs of joint graphs",
     "modes": "names of modes",
     "derivations": "closed forms that were derived",
     "consent": "Python of mechanisms that may run",
@@ -28,6 +29,10 @@ KINDS = {
 LIMIT = 512
 """Megabytes that are kept at most, unless ASSUR_CACHE_LIMIT says another number."""
 MEGABYTE = 1_000_000
+UNTRIMMED = 1 / 50
+"""Share of the limit that one process may keep before it looks again at all that is kept, which takes a while."""
+_since_trimmed: dict[Path, int] = {}
+"""Folder -> bytes that this process has kept there since it looked."""
 WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
@@ -84,7 +89,11 @@ def keep(kind: str, name: str, data: bytes) -> Path:
     path = cache_folder() / kind / name
     path.parent.mkdir(parents=True, exist_ok=True)
     replace_file(path, data)
-    trim(_stem(path))
+    folder, most = cache_folder(), limit()
+    _since_trimmed[folder] = _since_trimmed.get(folder, most) + len(data)
+    if _since_trimmed[folder] >= UNTRIMMED * most:
+        trim(_stem(path))
+        _since_trimmed[folder] = 0
     return path
 
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import joint_scales
-from assur.joint_graph.programs import GraphProgram, part, program
+from assur.joint_graph.graph_program import GraphProgram
+from assur.joint_graph.programs import part, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.newton_step import NewtonStep
 from assur.model.mechanism import MechanismRecord

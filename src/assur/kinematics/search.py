@@ -30,7 +30,9 @@ from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 STARTS = 192
-"""Starts that are closed together: of fewer the last that close keep all arrays short, more would seldom be needed."""
+"""Starts that are closed together at most: of fewer the last that close keep arrays short, more are seldom needed."""
+FEWEST = 12
+"""As few starts may be closed together at the end of a search."""
 MOST = 16 * STARTS
 WAY = 16
 """Starts on the way from home, where turns count."""
@@ -84,7 +86,7 @@ def _searched(
     known = np.empty((0, len(record.coordinates)))
     starts, converged, last, nearest, again = 0, 0, 0, np.inf, 0
     while starts < MOST and again < _enough(known):
-        begun = _starts(record, known, rng)
+        begun = _starts(record, known, rng, min(STARTS, _needed(known, again, starts, converged)))
         try:
             if starts == 0:
                 begun[0] = home_values(record)
@@ -103,7 +105,7 @@ def _searched(
         if len(kept) > len(known):
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
-        known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + STARTS
+        known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + len(begun)
         work.at(starts, MOST, f"{len(known)} assemblies so far")
     return Search(known, starts, converged, last, nearest, again >= _enough(known))
 
@@ -112,13 +114,18 @@ def _enough(known: FloatArray) -> int:
     return AGAIN * max(len(known), LEAST)
 
 
-def _starts(record: MechanismRecord, known: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """Joint values (STARTS, n)."""
+def _needed(known: FloatArray, again: int, starts: int, converged: int) -> int:
+    """So many more end the search where as large a share of them leads to an assembly, and to none that is new."""
+    return FEWEST + (_enough(known) - again) * starts // converged if converged else STARTS
+
+
+def _starts(record: MechanismRecord, known: FloatArray, rng: np.random.Generator, count: int) -> FloatArray:
+    """Joint values (count, n)."""
     if not len(known):
-        return by_chance(record, STARTS, rng)
-    share = STARTS // 3
+        return by_chance(record, count, rng)
+    share = count // 3
     parts = (
-        by_chance(record, STARTS - 2 * share, rng),
+        by_chance(record, count - 2 * share, rng),
         redrawn(record, known, share, rng),
         mixed(record, known, share, rng),
     )

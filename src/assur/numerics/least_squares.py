@@ -69,16 +69,18 @@ def minimise(
     steps = 0
     while steps < max_steps:
         active = np.flatnonzero(np.max(np.abs(residual), axis=1, initial=0.0) > tolerance)
-        active = active[~_in_valley(residual[active], jacobian[active])]
+        model = _LinearModels.of(residual[active], jacobian[active])
+        if np.any(model.in_valley):
+            active = active[~model.in_valley]
+            model = _LinearModels.of(residual[active], jacobian[active])
         if not len(active):
             break
         steps += 1
-        change = _step(residual[active], jacobian[active], damped[active], max_change)
+        change = model.step(damped[active], max_change)
         trial = x[active] + change if same is None else same(x[active] + change)
         new_residual, new_jacobian = system(trial, active)
         new_error = np.einsum("ni,ni->n", new_residual, new_residual)
-        expected = residual[active] + (jacobian[active] @ change[..., None])[..., 0]
-        gain = error[active] - np.einsum("ni,ni->n", expected, expected)
+        gain = error[active] - model.error(change)
         ratio = np.clip((error[active] - new_error) / np.maximum(gain, 1e-300), -1.0, 1.0)
         better = new_error < error[active]
         accepted, refused = active[better], active[~better]
@@ -93,31 +95,55 @@ def minimise(
     return LeastSquaresResult(x, np.max(np.abs(residual), axis=1, initial=0.0) <= tolerance, steps)
 
 
-def _in_valley(residual: FloatArray, jacobian: FloatArray) -> BoolArray:
-    """Where (N,) the sum of squares is at a minimum that is no root."""
-    slope = np.linalg.norm((residual[:, None, :] @ jacobian)[:, 0], axis=1)
-    column = np.sqrt(np.einsum("nij,nij->n", jacobian, jacobian) / max(jacobian.shape[-1], 1))
-    far = np.max(np.abs(residual), axis=1, initial=0.0) > FAR
-    return np.asarray(far & (slope <= LEVEL * column * np.linalg.norm(residual, axis=1)))
+@dataclass(frozen=True, eq=False)
+class _LinearModels:
+    """Systems as they are near a place: residuals (N, r), Jacobians (N, r, n), slopes J^T r (N, n), traces of J^T J."""
 
+    residual: FloatArray
+    jacobian: FloatArray
+    slope: FloatArray
+    trace: FloatArray
 
-def _step(residual: FloatArray, jacobian: FloatArray, damping: FloatArray, max_change: float) -> FloatArray:
-    normal = np.swapaxes(jacobian, -1, -2) @ jacobian
-    scale = np.einsum("nii->n", normal) / normal.shape[-1] + 1e-300
-    normal += (damping * scale)[:, None, None] * np.eye(normal.shape[-1])
-    gradient = (residual[:, None, :] @ jacobian)[:, 0]
-    try:
-        change = -np.linalg.solve(normal, gradient[..., None])[..., 0]
-    except np.linalg.LinAlgError:  # damping that is lost in the rounding of long columns
-        change = _step_by_singular_values(residual, jacobian, damping * scale)
-    length = np.max(np.abs(change), axis=1, keepdims=True)
-    limited: FloatArray = change * np.minimum(1.0, max_change / np.maximum(length, 1e-300))
-    return limited
+    @classmethod
+    def of(cls, residual: FloatArray, jacobian: FloatArray) -> _LinearModels:
+        slope = (residual[:, None, :] @ jacobian)[:, 0]
+        return cls(residual, jacobian, slope, np.einsum("nij,nij->n", jacobian, jacobian))
 
+    @property
+    def in_valley(self) -> BoolArray:
+        """Where (N,) the sum of squares is at a minimum that is no root."""
+        column = np.sqrt(self.trace / max(self.jacobian.shape[-1], 1))
+        far = np.max(np.abs(self.residual), axis=1, initial=0.0) > FAR
+        level = np.linalg.norm(self.slope, axis=1) <= LEVEL * column * np.linalg.norm(self.residual, axis=1)
+        return np.asarray(far & level)
 
-def _step_by_singular_values(residual: FloatArray, jacobian: FloatArray, damping: FloatArray) -> FloatArray:
-    """The same steps (N, n) without a product of the Jacobian with itself, a pivot of which may be zero."""
-    left, singular, turned = np.linalg.svd(jacobian, full_matrices=False)
-    gain = singular / (singular**2 + damping[:, None])
-    step: FloatArray = -((residual[:, None, :] @ left)[:, 0] * gain)[:, None, :] @ turned
-    return step[:, 0]
+    def error(self, change: FloatArray) -> FloatArray:
+        """The sums of squares (N,) after changes (N, n)."""
+        expected = self.residual + (self.jacobian @ change[..., None])[..., 0]
+        return np.asarray(np.einsum("ni,ni->n", expected, expected))
+
+    def step(self, damping: FloatArray, max_change: float) -> FloatArray:
+        """Changes (N, n); damping is a share of the mean square of the columns."""
+        equations, unknowns = self.jacobian.shape[-2:]
+        turned = np.swapaxes(self.jacobian, -1, -2)
+        damped = damping * (self.trace / unknowns + 1e-300)
+        wide = equations < unknowns  # J^T (J J^T + d)^-1 = (J^T J + d)^-1 J^T: the smaller of the two is solved
+        normal = self.jacobian @ turned if wide else turned @ self.jacobian
+        normal[:, range(len(normal[0])), range(len(normal[0]))] += damped[:, None]
+        try:
+            if wide:
+                change = -(turned @ np.linalg.solve(normal, self.residual[..., None]))[..., 0]
+            else:
+                change = -np.linalg.solve(normal, self.slope[..., None])[..., 0]
+        except np.linalg.LinAlgError:  # damping that is lost in the rounding of long columns
+            change = self._step_by_singular_values(damped)
+        length = np.max(np.abs(change), axis=1, keepdims=True)
+        limited: FloatArray = change * np.minimum(1.0, max_change / np.maximum(length, 1e-300))
+        return limited
+
+    def _step_by_singular_values(self, damped: FloatArray) -> FloatArray:
+        """The same steps (N, n) without a product of the Jacobian with itself, a pivot of which may be zero."""
+        left, singular, turned = np.linalg.svd(self.jacobian, full_matrices=False)
+        gain = singular / (singular**2 + damped[:, None])
+        step: FloatArray = -((self.residual[:, None, :] @ left)[:, 0] * gain)[:, None, :] @ turned
+        return step[:, 0]

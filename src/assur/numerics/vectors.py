@@ -21,9 +21,10 @@ def times(a: Number, b: Number) -> Number:
     >>> times(0, 2.5), times(2.5, -1), times(2.0, 2.5)
     (0, -2.5, 5.0)
     """
-    for factor, other in ((a, b), (b, a)):
-        if type(factor) is int and factor in (0, 1, -1):
-            return 0 if factor == 0 else other if factor == 1 else -other
+    if type(a) is int and -1 <= a <= 1:
+        return 0 if a == 0 else b if a == 1 else -b
+    if type(b) is int and -1 <= b <= 1:
+        return 0 if b == 0 else a if b == 1 else -a
     return a * b
 
 

@@ -17,8 +17,8 @@ def configuration(record: MechanismRecord) -> str:
     """JavaScript source of a function that works out where a configuration stands and how far its loops are open.
 
     `function (s, d, n)`: the numbers of all steps (`assur.joint_graph.state.state_names`), then nine
-    for each ball joint (`ball_rates`); dimensions as `assur.joint_graph.programs.dimensions` lists them. It fills in
-    what is not zero of numbers n that are: matrices row by row, one after the other as `matrices` gives them.
+    for each ball joint (`ball_rates`); dimensions as `assur.joint_graph.graph_program.dimensions` lists them. It
+    fills in what is not zero of numbers n that are: matrices row by row, one after the other as `matrices` gives them.
 
     >>> from assur.model.registry import load_record
     >>> configuration(load_record("fivebar")).splitlines()[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from assur.joint_graph.frames import placed_links
-from assur.joint_graph.programs import dimensions
+from assur.joint_graph.graph_program import dimensions
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.turns import counted, joint_units
 from assur.model.mechanism import Joint, MechanismRecord

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -31,12 +32,14 @@ class StraightLine:
     >>> from assur.numerics.recording.tape import Recorder
     >>> recorder = Recorder()
     >>> x, p = recorder.varying("x"), recorder.uniform("p")
-    >>> StraightLine(recorder.tape({"y": x * p, "z": recorder.sqrt(x)}))(np.array([[4.0, 9.0]]), [0.5])
+    >>> tape = recorder.tape({"y": x * p, "z": recorder.sqrt(x)})
+    >>> StraightLine(tape, compiled(tape))(np.array([[4.0, 9.0]]), [0.5])
     array([[2. , 4.5],
            [2. , 3. ]])
     """
 
     tape: Tape
+    code: CodeType
 
     def __call__(self, varying: FloatArray, uniform: Sequence[float]) -> FloatArray:
         """Outputs (m, N) in the tape's order, of numbers (k, N) and (u,)."""
@@ -66,9 +69,14 @@ class StraightLine:
     @cached_property
     def _run(self) -> Callable[..., Sequence[Any]]:
         names: dict[str, Any] = {"inf": float("inf"), "nan": float("nan")}
-        exec(compile("\n".join(lines(self.tape)), "<tape>", "exec"), names)
+        exec(self.code, names)
         run: Callable[..., Sequence[Any]] = names["run"]
         return run
+
+
+def compiled(tape: Tape) -> CodeType:
+    """Its lines as Python's own code; to compile them takes as long as to record the tape."""
+    return compile("\n".join(lines(tape)), "<tape>", "exec")
 
 
 def lines(tape: Tape) -> list[str]:

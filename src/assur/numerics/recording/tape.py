@@ -10,7 +10,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,7 @@ from assur.numerics.number_types import Floats
 from assur.numerics.powers import whole_power
 
 
-@dataclass(frozen=True)
-class Operation:
+class Operation(NamedTuple):
     """One entry: an operation on earlier entries, a number, or a place where one is given.
 
     `name` is one of "varying" and "uniform" (given: one per element, or one for all), "number", "+", "-", "*", "/",
@@ -166,10 +165,10 @@ class Recorder:
         return value if isinstance(value, Recorded) else self.number(value)
 
     def _shared(self, operation: Operation) -> Recorded:
-        if operation not in self._places:
-            self._places[operation] = len(self._operations)
+        place = self._places.setdefault(operation, len(self._operations))
+        if place == len(self._operations):
             self._operations.append(operation)
-        return Recorded(self, self._places[operation])
+        return Recorded(self, place)
 
     def _append(self, operation: Operation) -> Recorded:
         self._operations.append(operation)
