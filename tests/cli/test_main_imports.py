@@ -52,9 +52,9 @@ def test_a_check_sets_no_type_to_see_that_labels_can_be_set(cache):
     [
         (("--help",), set(), 51),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 128),
-        (DIRECT, NUMPY, 137),
-        (INVERSE, NUMPY, 137),
+        (("show", "zeng2019"), NUMPY, 130),
+        (DIRECT, NUMPY, 139),
+        (INVERSE, NUMPY, 139),
     ],
 )
 def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):
