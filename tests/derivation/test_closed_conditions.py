@@ -37,5 +37,12 @@ def test_balls_whose_centres_coincide_leave_a_circle_or_a_ball():
 
 
 @pytest.mark.parametrize("name", ["planar_3rrr"])
-def test_conditions_of_a_polynomial_are_named_as_open(name):
-    assert {own.outcome for own in cases(name).values()} == {"open"}
+def test_a_determinant_vanishes_at_no_solution_for_general_inputs(name):
+    """So says the verifier too: it divides by it modulo the polynomial."""
+    assert {own.outcome for own in cases(name).values()} == {"apart"}
+
+
+def test_legs_without_length_fix_a_platform_twice():
+    """Its point is then where the leg's joint on the base is, which is one equation more than a leg of a length has."""
+    found = {str(own.condition): own.outcome for own in cases("planar_3rpr").values()}
+    assert found == {"rho2": "no solution", "rho3": "no solution", "det": "apart"}

@@ -288,6 +288,7 @@ def _cases(part: DerivedProblem) -> Iterator[RenderableType]:
             "self-motion": f"a self-motion of {own.freedoms}: {' and '.join(own.links)} move, what is given stands",
             "roots": "solved alike, with no more roots",
             "no solution": "no solution",
+            "apart": "at no solution, but for what is given so that the polynomial has a root in common with it",
             "open": "open: not derived",
         }[own.outcome]
         yield Verbatim(f"where {own.condition} = 0{f', as {where}' if where else ''}: {said}")

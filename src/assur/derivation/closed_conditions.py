@@ -3,6 +3,9 @@
 A sum of squares of real numbers vanishes where each does, a product where a factor does. Each such case is told to a
 witness: a length, a dimension or an angle that is given becomes what makes the factor vanish. Then the set is solved
 again. Where fewer equations are left than the unknowns need, the links move while everything that is given stands.
+
+Of a coupled set the solutions are counted there, by a Groebner basis. Its determinant is another matter: the polynomial
+vanishes at every solution, also where the determinant does, and both have no root in common for general inputs.
 """
 
 from __future__ import annotations
@@ -15,19 +18,28 @@ from typing import Literal
 import sympy
 from sympy.polys.polyerrors import PolynomialError
 
+from assur.derivation.definitions import Definition
 from assur.derivation.elimination import SolvedSet, meeting
 from assur.derivation.linear import ONE, never_zero, rank, value_of
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.residue_systems import residue_system
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.witness import ModularWitness, NoResidueRootError
+from assur.numerics.prime_field import LARGE, SMALL
 
 SEEDS = range(1, 7)
-"""Of the two angles at which a line meets a circle each is one of the draws, by the sign of the residue's root."""
+"""Of the two angles at which a line meets a circle each is one of the draws, by the sign of the residue's root.
+Solutions of a coupled set are counted at two of them."""
 ZERO = sympy.Integer(0)
 MOST = 16
 """Cases of one condition that are looked at."""
+SECONDS = 10.0
+"""For the solutions of a coupled set in one case."""
 LONG = 400
 """Operations of a condition, written out, that is left open."""
+
+
+Outcome = Literal["self-motion", "roots", "no solution", "apart", "open"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +49,8 @@ class ClosedCondition:
     Attributes:
         condition: what vanishes.
         vanish: the factors that do in this case, written out.
-        outcome: "self-motion", "roots", "no solution", or "open".
+        outcome: "self-motion", "roots", "no solution", or "open"; of the determinant of a coupled set "apart": it fails
+            at no solution, but for inputs at which the polynomial has a root with it in common.
         freedoms: of the self-motion.
         links: that move so, the first of them freely.
         formulas: what else follows of the unknowns of the first, each zero.
@@ -45,7 +58,7 @@ class ClosedCondition:
 
     condition: sympy.Expr
     vanish: tuple[sympy.Expr, ...]
-    outcome: Literal["self-motion", "roots", "no solution", "open"]
+    outcome: Outcome
     freedoms: int = 0
     links: tuple[str, ...] = ()
     formulas: tuple[sympy.Expr, ...] = ()
@@ -67,8 +80,11 @@ def closed_conditions(solution: AnalyticSolution) -> Iterator[ClosedCondition]:
 
 def _cases(solution: AnalyticSolution, place: int, part: SolvedSet, condition: sympy.Expr) -> Iterator[ClosedCondition]:
     left = ClosedCondition(condition, (), "open")
-    components = [] if part.eliminant else [_factors(own, part) for own in _squares(condition, part)]
-    if part.eliminant or None in components:
+    if part.eliminant and condition == part.eliminant.steps[0].symbol:
+        yield ClosedCondition(condition, (), "apart")
+        return
+    components = [_factors(own, part) for own in _squares(condition, part)]
+    if None in components:
         yield left
         return
     if not all(components):
@@ -80,7 +96,8 @@ def _cases(solution: AnalyticSolution, place: int, part: SolvedSet, condition: s
         yield left
         return
     for vanish in choices:
-        own_cases = (_Case(solution, place, part, condition, vanish, seed).closed() for seed in SEEDS)
+        seeds = SEEDS[:2] if part.eliminant else SEEDS
+        own_cases = (_Case(solution, place, part, condition, vanish, seed).closed() for seed in seeds)
         yield from dict.fromkeys(own for own in own_cases if own is not None)
 
 
@@ -134,7 +151,7 @@ class _Case:
     def closed(self) -> ClosedCondition | None:
         """What holds; None where the case cannot be."""
         try:
-            witness = ModularWitness(self.seed)
+            witness = ModularWitness(self.seed, SMALL if self.part.eliminant else LARGE)
             for cosine, sine in self.solution.symbols.circles:
                 witness.on_circle(cosine, sine)
             solved = {own.symbol for own in self.before}
@@ -151,7 +168,8 @@ class _Case:
             if self._impossible(witness):
                 return None
             return self._derived(witness)
-        except (NotDerivedError, NoResidueRootError, ValueError):  # ValueError: a division by what vanishes too
+        # TimeoutError: not counted; ValueError: a division by what vanishes too
+        except (NotDerivedError, NoResidueRootError, TimeoutError, ValueError):
             return self.plain
 
     def _free(self, factor: sympy.Expr) -> list[sympy.Symbol]:
@@ -209,6 +227,8 @@ class _Case:
 
     def _derived(self, witness: ModularWitness) -> ClosedCondition:
         part = self.part
+        if part.eliminant is not None:
+            return self._counted(part.eliminant.known, witness)
         unknowns = {own for direction in part.directions for own in direction.unknowns}
         roots = {root.symbol for root in part.roots}
         for own in part.definitions:
@@ -230,5 +250,22 @@ class _Case:
         follows = (key - value_of(form) for key, form in values.items())
         return ClosedCondition(self.plain.condition, self.plain.vanish, "self-motion", freedoms, links, tuple(follows))
 
-    def _case(self, outcome: Literal["roots", "no solution"]) -> ClosedCondition:
+    def _counted(self, known: Sequence[Definition], witness: ModularWitness) -> ClosedCondition:
+        """What a coupled set has for solutions."""
+        for own in known:
+            witness.define(own.symbol, own.formula)
+        directions = self.part.directions
+        unknowns = [unknown for direction in directions for unknown in direction.unknowns]
+        equations = [*map(value_of, self.part.equations)]
+        equations += [direction.quadric for direction in directions if direction.kind != "stroke"]
+        system = residue_system(equations, unknowns, witness)
+        if system is None:
+            return self.plain
+        freedoms = system.dimension(SECONDS)
+        if freedoms <= 0:
+            return self._case("roots" if freedoms == 0 else "no solution")
+        links = tuple(own.name for own in directions)
+        return ClosedCondition(self.plain.condition, self.plain.vanish, "self-motion", freedoms, links)
+
+    def _case(self, outcome: Outcome) -> ClosedCondition:
         return ClosedCondition(self.plain.condition, self.plain.vanish, outcome)

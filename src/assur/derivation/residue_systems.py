@@ -13,9 +13,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
+
+import sympy
+
+from assur.derivation.witness import ModularWitness
 
 Monomial = tuple[int, ...]
 Polynomial = Mapping[Monomial, int]
@@ -79,17 +84,37 @@ class ResidueSystem:
         2
         """
         own = self.reduced()
-        if any(not any(powers for powers in part if any(powers)) and part for part in own.polynomials):
-            return 0, "linear equations"
-        if own.unknowns == 0:
-            return 1, "linear equations"
+        leading, program = own._leading_monomials(seconds)
+        return staircase(leading, own.unknowns), program
+
+    def dimension(self, seconds: float) -> int:
+        """How many unknowns may be chosen: 0 where there are finitely many solutions, -1 where there are none.
+
+        Errors:
+            TimeoutError.
+
+        >>> ResidueSystem(7, 2, ({(1, 1): 1},)).dimension(60.0)
+        1
+        """
+        own = self.reduced()
+        leading, _ = own._leading_monomials(seconds)
+        chosen = (set(some) for size in range(own.unknowns, -1, -1) for some in combinations(range(own.unknowns), size))
+        free = (some for some in chosen if not any(_within(powers, some) for powers in leading))
+        return len(next(free, ())) - any(not any(powers) for powers in leading)
+
+    def _leading_monomials(self, seconds: float) -> tuple[list[Monomial], str]:
+        """Those of a Groebner basis, and by which program. Errors: TimeoutError."""
+        if any(own and not any(map(any, own)) for own in self.polynomials):
+            return [(0,) * self.unknowns], "linear equations"
+        if not any(self.polynomials):
+            return [], "linear equations"
         program = shutil.which("msolve")
         try:
-            return (own._by_msolve(program, seconds), "msolve") if program else (own._by_sympy(seconds), "sympy")
+            return (self._by_msolve(program, seconds), "msolve") if program else (self._by_sympy(seconds), "sympy")
         except subprocess.TimeoutExpired as error:
             raise TimeoutError(f"not counted in {seconds:g} s") from error
 
-    def _by_msolve(self, program: str, seconds: float) -> int | None:
+    def _by_msolve(self, program: str, seconds: float) -> list[Monomial]:
         names = [f"x{k}" for k in range(1, self.unknowns + 1)]
         with tempfile.TemporaryDirectory() as folder:
             given, answer = Path(folder, "in.ms"), Path(folder, "out.ms")
@@ -100,9 +125,9 @@ class ResidueSystem:
         found = re.search(r"\[([^\]]*)\]", text)
         if run.returncode != 0 or found is None:
             return self._by_sympy(seconds)
-        return staircase([_monomial(part, names) for part in found[1].split(",")], self.unknowns)
+        return [_monomial(part, names) for part in found[1].split(",")]
 
-    def _by_sympy(self, seconds: float) -> int | None:
+    def _by_sympy(self, seconds: float) -> list[Monomial]:
         data = [
             self.prime,
             self.unknowns,
@@ -110,7 +135,29 @@ class ResidueSystem:
         ]
         words = [sys.executable, "-m", "assur.derivation.residue_systems"]
         run = subprocess.run(words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True)
-        return staircase([tuple(powers) for powers in json.loads(run.stdout)], self.unknowns)
+        return [tuple(powers) for powers in json.loads(run.stdout)]
+
+
+def residue_system(
+    equations: Sequence[sympy.Expr], unknowns: Sequence[sympy.Symbol], witness: ModularWitness
+) -> ResidueSystem | None:
+    """Equations at a witness; None where a coefficient is no residue, but one times the root of -1."""
+    polynomials = []
+    for equation in equations:
+        polynomial = {}
+        for powers, part in sympy.Poly(sympy.expand(equation), *unknowns).terms():
+            real, imaginary = witness.value(part)
+            if imaginary:
+                return None
+            if real:
+                polynomial[tuple(map(int, powers))] = real
+        polynomials.append(polynomial)
+    return ResidueSystem(witness.field.p, len(unknowns), tuple(own for own in polynomials if own))
+
+
+def _within(powers: Monomial, chosen: Collection[int]) -> bool:
+    """Whether a monomial is one of some unknowns alone."""
+    return all(k in chosen for k, power in enumerate(powers) if power)
 
 
 def _joined(polynomials: Sequence[Polynomial], names: Sequence[str]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import sympy
 
@@ -20,36 +21,38 @@ from assur.derivation.symbols import GivenSymbols
 from assur.model.mechanism import MechanismRecord
 
 
-def sets_in_order(
-    forms: Sequence[Form],
-    plain: Callable[[], Sequence[Form]],
-    loops: LoopEquations,
-    vectors: Sequence[StrokeVector],
-    symbols: GivenSymbols,
-    placed: LinkOrientations,
-) -> tuple[SolvedSet, ...]:
-    """Sets in their order, of equations that are short, or of plain ones where known angles are coefficients of those.
+@dataclass(frozen=True, eq=False)
+class SetProblem:
+    """What sets are looked for in.
 
-    Errors:
-        NotDerivedError: the set that resists.
+    Attributes:
+        forms: equations that are short.
+        plain: makes equations in which known angles are not coefficients, where they are in those.
+        loops: the loop equations.
+        vectors: that stand in the place of lengths along directions that turn.
+        symbols: what is given.
+        placed: orientations of the links.
     """
-    return _Order(forms, plain, loops, vectors, symbols, placed).sets()
+
+    forms: Sequence[Form]
+    plain: Callable[[], Sequence[Form]]
+    loops: LoopEquations
+    vectors: Sequence[StrokeVector]
+    symbols: GivenSymbols
+    placed: LinkOrientations
+
+    def sets(self) -> tuple[SolvedSet, ...]:
+        """All sets in their order. Errors: ResistingSetError."""
+        return _Order(self).sets()
 
 
 class _Order:
-    def __init__(
-        self,
-        forms: Sequence[Form],
-        plain: Callable[[], Sequence[Form]],
-        loops: LoopEquations,
-        vectors: Sequence[StrokeVector],
-        symbols: GivenSymbols,
-        placed: LinkOrientations,
-    ) -> None:
-        self.forms, self.plain, self.vectors = list(forms), plain, vectors
-        self.symbols, self.witness, self.carriers = symbols, symbols.witness, loops.carriers
-        self.axes, self.placed = loops.axes, placed
-        self.taken = _names(symbols.record) | {own.symbol.name for own in placed.named.definitions}
+    def __init__(self, problem: SetProblem) -> None:
+        symbols, vectors, loops = problem.symbols, problem.vectors, problem.loops
+        self.problem, self.forms, self.symbols = problem, [*problem.forms], symbols
+        self.witness, self.placed = symbols.witness, problem.placed
+        self.vectors, self.carriers = vectors, loops.carriers
+        self.taken = _names(symbols.record) | {own.symbol.name for own in problem.placed.named.definitions}
         instead = {vector.circle: vector.direction for vector in vectors}
         self.left = [instead.get(own, own) for own in loops.directions]
 
@@ -74,8 +77,8 @@ class _Order:
 
     def _next(self, later: bool) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
         chosen, equations = next_set(self.forms, self.left, self.witness)
-        if later and not self.axes and not self._steady(equations):
-            own = [divided(form) for form in self._rest(self.plain())]
+        if later and not self.problem.loops.axes and not self._steady(equations):
+            own = [divided(form) for form in self._rest(self.problem.plain())]
             other, others = next_set(sparse(own, self.witness), self.left, self.witness)
             if self._steady(others):
                 return other, others

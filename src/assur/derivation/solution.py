@@ -19,7 +19,7 @@ from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.orientations import LinkOrientations, orientations
-from assur.derivation.sets_in_order import sets_in_order
+from assur.derivation.sets_in_order import SetProblem
 from assur.derivation.strokes import stroke_vectors
 from assur.derivation.symbols import GivenSymbols
 from assur.derivation.witness import ModularWitness, NoResidueRootError
@@ -162,7 +162,7 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     axes, forms = forms[: loops.axes], _more_than(forms[: loops.axes], forms[loops.axes :], loops, witness)
     lengths, short = projected(sparse(forms, witness), fixed, witness)
     short = [*axes, *sparse([divided(form) for form in short], witness)]
-    sets = sets_in_order(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed)
+    sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import sympy
-
+from assur.derivation.linear import value_of
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.orientations import orientations
-from assur.derivation.residue_systems import ResidueSystem
+from assur.derivation.residue_systems import ResidueSystem, residue_system
 from assur.derivation.symbols import GivenSymbols
 from assur.derivation.witness import ModularWitness
 from assur.kinematics.modes import Problem
@@ -79,16 +78,5 @@ def _system(record: MechanismRecord, problem: Problem, seed: int) -> ResidueSyst
 
 def _at(loops: LoopEquations, witness: ModularWitness) -> ResidueSystem | None:
     unknowns = [*loops.lengths.values(), *(own for direction in loops.directions for own in direction.unknowns)]
-    equations = [sum((part * key for key, part in form.items()), sympy.Integer(0)) for form in loops.forms]
-    equations += [direction.quadric for direction in loops.directions]
-    polynomials = []
-    for equation in equations:
-        polynomial = {}
-        for powers, part in sympy.Poly(sympy.expand(equation), *unknowns).terms():
-            real, imaginary = witness.value(part)
-            if imaginary:
-                return None
-            if real:
-                polynomial[tuple(map(int, powers))] = real
-        polynomials.append(polynomial)
-    return ResidueSystem(witness.field.p, len(unknowns), tuple(own for own in polynomials if own))
+    equations = [*map(value_of, loops.forms), *(direction.quadric for direction in loops.directions)]
+    return residue_system(equations, unknowns, witness)

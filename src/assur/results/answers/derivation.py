@@ -167,7 +167,8 @@ class DerivedCase:
     """What holds where a condition does not: where its factors `vanish` together, all else being general.
 
     `outcome` is "self-motion", of `freedoms`, where the first of `links` is free and others follow by `formulas`;
-    "roots", at most as many as elsewhere; "no solution"; or "open".
+    "roots", at most as many as elsewhere; "no solution"; "open"; or "apart", of a determinant that vanishes at no
+    solution, but where what is given lets a polynomial have a root in common with it.
     """
 
     condition: str
