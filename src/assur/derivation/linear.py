@@ -105,7 +105,8 @@ def projected(
 ) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
     """Lengths as forms of what is left, and what is left of the equations, each projected on its own coefficients.
 
-    A length along a unit vector a has the coefficients a in three equations: a of these is it, whatever a is.
+    A length along a unit vector a has the coefficients a in three equations: a of these is it, whatever a is. Where one
+    of them is a number, the shortest such equation says it alone.
 
     Errors:
         NotDerivedError: a length that no equation is left for.
@@ -118,7 +119,8 @@ def projected(
     for length in lengths:
         rows = [form for form in left if length in form]
         pivot: Form = {}
-        for row in rows:
+        alone = [row for row in rows if row[length].is_number]
+        for row in [min(alone, key=_size)] if alone else rows:
             pivot = combined(pivot, row[length], row, witness)
         if length not in pivot:
             raise NotDerivedError(
@@ -188,6 +190,11 @@ def _left(form: Form, key: sympy.Symbol, other: Form, witness: ModularWitness) -
         not witness.vanishes(form.get(own, zero), other[key], form[key], other.get(own, zero))
         for own in (form.keys() | other.keys()) - {ONE, key}
     )
+
+
+def size(forms: Sequence[Form]) -> int:
+    """Operations of all coefficients."""
+    return sum(_size(form)[1] for form in forms)
 
 
 def _size(form: Form) -> tuple[int, int]:

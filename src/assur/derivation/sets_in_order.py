@@ -10,7 +10,7 @@ import sympy
 
 from assur.derivation.eliminants import eliminated
 from assur.derivation.elimination import SolvedSet, solution, with_known
-from assur.derivation.linear import ONE, Form, divided, form_of, sparse, value_of
+from assur.derivation.linear import ONE, Form, divided, form_of, size, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
@@ -77,10 +77,10 @@ class _Order:
 
     def _next(self, later: bool) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
         chosen, equations = next_set(self.forms, self.left, self.witness)
-        if later and not self.problem.loops.axes and not self._steady(equations):
+        if later and not self.problem.loops.axes and not self._plain(equations):
             own = [divided(form) for form in self._rest(self.problem.plain())]
             other, others = next_set(sparse(own, self.witness), self.left, self.witness)
-            if self._steady(others):
+            if self._steady(others) and (not self._steady(equations) or size(others) < size(equations)):
                 return other, others
         return chosen, equations
 
@@ -94,6 +94,12 @@ class _Order:
             left.append(form_of(value_of(form), unknowns, self.witness))
         unknowns = _unknowns(self.left)
         return [form for form in left if any({*unknowns} & part.free_symbols for part in (*form, *form.values()))]
+
+    def _plain(self, equations: Sequence[Form]) -> bool:
+        """Whether coefficients of unknowns are single dimensions, as in loop equations that nothing was added to."""
+        dimensions = {*self.symbols.parameters.values()}
+        own = [part.as_coeff_Mul()[1] for form in equations for key, part in form.items() if key != ONE]
+        return all(part in dimensions or part.is_number for part in own)
 
     def _steady(self, equations: Sequence[Form]) -> bool:
         """Whether coefficients of unknowns are of dimensions alone, so that they vanish nowhere in the motion."""
