@@ -1,6 +1,7 @@
 """The audit of every mechanism: complete, with an erratum for whatever is not ok, and as plain data."""
 
 import json
+import shutil
 
 import pytest
 
@@ -62,6 +63,15 @@ def test_ok_rows_agree_within_their_tolerance(found):
     for row in found.rows:
         if row.tolerance is not None and row.off_by is not None and not row.quantity.endswith(("low", "high")):
             assert (abs(row.off_by) <= row.tolerance) == (row.verdict == "ok"), row
+
+
+def test_what_asks_a_closed_form_is_refused_before_the_work(tmp_path, monkeypatch):
+    """The reference data of the five-bar beside a file without formulas: no evidence is looked at before."""
+    shutil.copytree(assur.load("fivebar").folder, tmp_path / "fivebar")
+    (tmp_path / "fivebar" / "closed_form.py").unlink()
+    monkeypatch.delattr("assur.audit.audit.errata")
+    with pytest.raises(UsageError, match="has no closed form"):
+        audit(assur.load(tmp_path / "fivebar"))
 
 
 # ---- plain data ------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 import dataclasses
+import functools
 import io
 
 import pytest
@@ -8,6 +9,8 @@ from assur.cli import demo_documents
 from assur.cli.claims import Ledger
 from assur.cli.demonstration import MECHANISM
 from assur.cli.options import PLAIN
+from assur.figures import catalogue
+from assur.report import findings, report
 
 
 @pytest.fixture
@@ -23,9 +26,17 @@ def test_its_mechanism_is_there():
     assert MECHANISM in assur.names()
 
 
-@pytest.mark.slow
-def test_all_of_it(assur_process, tmp_path):
-    run = assur_process("demo", "-o", str(tmp_path / "out"))
+@pytest.fixture
+def small(monkeypatch):
+    """The demonstration with all of its parts, but few nodes, two figures and a report of two sections."""
+    monkeypatch.setattr(findings, "Findings", functools.partial(findings.Findings, resolution=16, illustrated=False))
+    monkeypatch.setattr(catalogue, "ENTRIES", catalogue.ENTRIES[:2])
+    monkeypatch.setattr(report, "ANALYSES", ())
+    monkeypatch.setattr(report, "SECTIONS", report.SECTIONS[:2])
+
+
+def told(run, folder):
+    """What is said of every part, and that its files are there."""
     assert run.code == 0
     assert all(line.endswith(": still at work after 20 s") for line in run.err.splitlines())
     assert "\N{BALLOT X}" not in run.out
@@ -37,8 +48,18 @@ def test_all_of_it(assur_process, tmp_path):
     for part in (*solved, "Audit", "Figures", "Report", "Page"):
         assert f"\n{part}" in run.out
     for name in ("report.html", "page.html"):
-        assert (tmp_path / "out" / name).is_file()
+        assert (folder / name).is_file()
         assert f"{name}: " in run.out
+
+
+def test_every_part_of_it(assur_cli, small, tmp_path):
+    told(assur_cli("demo", "-o", str(tmp_path)), tmp_path)
+    assert sorted(path.name for path in (tmp_path / "figures").glob("*.png")) == ["model.png", "structure.png"]
+
+
+@pytest.mark.deep
+def test_all_of_it(assur_process, tmp_path):
+    told(assur_process("demo", "-o", str(tmp_path / "out")), tmp_path / "out")
     assert len(list((tmp_path / "out" / "figures").glob("*.png"))) >= 9
 
 

@@ -26,7 +26,7 @@ OWN = {
     "a Par4": [],
 }
 PAR4 = Path(__file__).parents[1] / "kinematics" / "loops" / "par4.toml"
-SLOW = ("a 6-RUS", "a Par4")
+SLOW = ("a 6-RUS", "a Par4", "one with ball screws")
 STARTS = 400
 
 

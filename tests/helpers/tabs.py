@@ -16,6 +16,13 @@ LOOK = """() => JSON.stringify([
 """What a reader sees but for the picture and the numbers that are still being looked for, and which load it is."""
 
 
+UNDRAWN = """for (const { prototype } of [WebGLRenderingContext, WebGL2RenderingContext])
+  for (const name of Object.keys(Object.getOwnPropertyDescriptors(prototype)))
+    if (/^draw[A-Z]\\w*s/.test(name)) prototype[name] = () => {};
+"""
+"""Leaves out the triangles of every picture, which without a graphics card are most of a page's work."""
+
+
 def load_page(tab: Any, address: str) -> None:
     """Until its first picture has been drawn."""
     tab.goto("about:blank")
@@ -23,10 +30,12 @@ def load_page(tab: Any, address: str) -> None:
     tab.wait_for_selector(READY, state="attached", timeout=60_000)
 
 
-def listened(browser: Any, width: int, height: int, dark: bool = False) -> tuple[Any, list[str]]:
-    """A new tab, and all that it will complain of."""
+def listened(browser: Any, width: int, height: int, dark: bool = False, drawn: bool = True) -> tuple[Any, list[str]]:
+    """A new tab, and all that it will complain of; one that is not `drawn` is for tests that look at no picture."""
     size = {"width": width, "height": height}
     tab = browser.new_context(viewport=size, color_scheme="dark" if dark else "light").new_page()
+    if not drawn:
+        tab.add_init_script(UNDRAWN)
     said: list[str] = []
     tab.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
     tab.on("pageerror", lambda error: said.append(f"error: {error}"))

@@ -80,14 +80,15 @@ def address(tmp_path_factory):
 def standing(browser, address):
     """A page that stays open from one test to the next, as it opens: put back, or loaded anew where that is not enough.
 
-    Gives the tab, and what it has complained of so far, by mechanism, size of the window, darkness and dimensions.
+    Gives the tab, and what it has complained of so far, by mechanism, size of the window, darkness, dimensions, and
+    whether its pictures are drawn.
     """
     tabs, before = {}, {}
 
-    def stand(name, width, height, dark=False, **given):
-        key = (name, width, height, dark, *sorted(given.items()))
+    def stand(name, width, height, dark=False, drawn=False, **given):
+        key = (name, width, height, dark, drawn, *sorted(given.items()))
         if key not in tabs:
-            tabs[key] = listened(browser, width, height, dark)
+            tabs[key] = listened(browser, width, height, dark, drawn)
         tab, said = tabs[key]
         if key not in before or not as_it_opened(tab, before[key]):
             load_page(tab, address(name, **given))
@@ -101,7 +102,7 @@ def standing(browser, address):
 
 @pytest.fixture
 def opened(browser, address, standing):
-    """Open a page in a window of a size; whatever it complains of fails the test.
+    """Open a page in a window of a size, its pictures not drawn; whatever it complains of fails the test.
 
     A link (`at`), and a page that the test has open already, come in a window of their own.
     """
@@ -109,7 +110,7 @@ def opened(browser, address, standing):
 
     def open_(name, *, width=900, height=600, dark=False, at="", **given):
         if at or (name, width, height, dark, given) in used:
-            tab, said = listened(browser, width, height, dark)
+            tab, said = listened(browser, width, height, dark, drawn=False)
             own.append(tab)
             load_page(tab, at if at.startswith("file:") else address(name, **given) + at)
             heard.append((said, 0))

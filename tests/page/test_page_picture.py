@@ -33,7 +33,7 @@ def opened(standing, address):
     """A mechanism's page as it opens."""
 
     def open_(name):
-        tab, _ = standing(name, WIDTH, HEIGHT)
+        tab, _ = standing(name, WIDTH, HEIGHT, drawn=True)
         return SimpleNamespace(record=load(name), scene=scene_of(name), address=address(name), tab=tab)
 
     return open_

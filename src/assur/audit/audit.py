@@ -18,6 +18,7 @@ from assur.audit.statements import Statement, statement_rows
 from assur.audit.tables import PrintedTable, direct_rows, inverse_rows
 from assur.audit.topology import PrintedDecomposition, PrintedPocSet, decomposition_rows, poc_rows
 from assur.errors import UnknownNameError
+from assur.kinematics.status import closed_form_of
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
 from assur.work import stage
@@ -27,12 +28,14 @@ from assur.work import stage
 class Kind:
     """A kind of reference entry: its form in the file, and what makes rows of it.
 
-    `make` takes the record and the entry, and the source's letters too where `with_letters`.
+    `make` takes the record and the entry, and the source's letters too where `with_letters`. What is `sampled` is tried
+    at poses by chance, for which a closed form is needed.
     """
 
     form: type[Entry]
     make: Callable[..., list[Row]]
     with_letters: bool = False
+    sampled: bool = False
 
     def rows(self, record: MechanismRecord, reference: Reference, entry: Entry) -> list[Row]:
         """The rows of one entry."""
@@ -42,12 +45,12 @@ class Kind:
 KINDS: Mapping[str, Kind] = {
     "poc": Kind(PrintedPocSet, poc_rows),
     "decomposition": Kind(PrintedDecomposition, decomposition_rows),
-    "equation": Kind(PrintedEquation, equation_rows, with_letters=True),
+    "equation": Kind(PrintedEquation, equation_rows, with_letters=True, sampled=True),
     "dependence": Kind(Dependence, dependence_rows),
     "direct": Kind(PrintedTable, direct_rows),
     "inverse": Kind(PrintedTable, inverse_rows),
     "count": Kind(Count, count_rows),
-    "range": Kind(PrintedRange, range_rows),
+    "range": Kind(PrintedRange, range_rows, sampled=True),
 }
 """Array of tables in a reference file -> what it is. Rows come in this order; statements come last."""
 
@@ -60,7 +63,8 @@ def audit(record: MechanismRecord) -> Audit:
     That a printed number is wrong is a result; that evidence does not hold is a failure of ours (`claims_hold`).
 
     Errors:
-        UsageError: there are no reference data, or the mechanism has other dimensions than they were printed for.
+        UsageError: there are no reference data, the mechanism has other dimensions than they were printed for, or no
+            closed form where one is needed.
         MechanismFileError: a reference file has faults.
 
     Example:
@@ -71,6 +75,8 @@ def audit(record: MechanismRecord) -> Audit:
         ('-128.8290', -83.0873, 'wrong', 'E3')
     """
     reference = reference_of(record)
+    if any(kind.sampled and reference.entries[name] for name, kind in KINDS.items()):
+        closed_form_of(record)  # refused before the work, not after it
     with stage("evidence of errata"):
         checked = errata(record)
     rows = rows_of(record, tuple(KINDS))
