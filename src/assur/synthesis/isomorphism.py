@@ -91,6 +91,8 @@ def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Dire
             axes: tuple[Vector, ...] = (element.axis,)
         elif isinstance(element, ChainJoint):
             kind, axes, label = element.type.letter, element.axes, element.point
+            if element.through:
+                raise UsageError("a limb with an axis through several labelled points has no canonical form")
         else:
             raise UsageError("a limb with an inner loop has no canonical form")
         if kind in ("P", "P(4R)"):

@@ -27,7 +27,8 @@ class ChainJoint:
 
     Attributes:
         axes: unit vectors, as many as its type has written: two for U, the first fixed in the link before it.
-        point: label of a point that the axis (or centre) runs through; equal labels are one point.
+        point: label of a point that the axis runs through, or that is the centre; equal labels are one point.
+        through: labels of further points that each axis runs through; none where nothing more is said.
         name: how it is printed, "R3": unique in its mechanism.
         general: the axes were left open, and `axes` holds arbitrary ones.
 
@@ -40,6 +41,7 @@ class ChainJoint:
     point: str = ""
     name: str = ""
     general: bool = False
+    through: tuple[tuple[str, ...], ...] = ()
 
     def __post_init__(self) -> None:
         letter, count = self.type.letter, len(self.axes)
@@ -49,8 +51,10 @@ class ChainJoint:
             _refuse_unless_unit(axis)
         if self.type.turns == 2 and parallel(self.axes[0], self.axes[1]):
             raise UsageError(f"parallel axes {self.axes} of a {letter}; expected different ones", hint="they are one R")
-        if self.point and not self.type.turning:
+        if (self.point or self.through) and not self.type.turning:
             raise UsageError(f"a point '{self.point}' for {letter}; expected none: a translation has no place")
+        if len(self.through) not in (0, count):
+            raise UsageError(f"points on {len(self.through)} axes of {letter}; expected them for each of {count}")
 
     @property
     def directions(self) -> tuple[Vector, ...]:
@@ -61,6 +65,11 @@ class ChainJoint:
     def freedoms(self) -> int:
         """f_i of Eq. (3)."""
         return self.type.freedoms
+
+    def points_on(self, axis: int) -> tuple[str, ...]:
+        """Labels of the points that one of its axes runs through, a centre first."""
+        further = self.through[axis] if self.through else ()
+        return (self.point, *further) if self.point else further
 
 
 @dataclass(frozen=True)

@@ -229,3 +229,8 @@ def test_a_home_near_the_end_of_a_leg_s_reach_is_said():
     record = read(drafted(repeated("P[z] P(4S)[y]", 3), PATH))
     assert remarks(record) == ()
     assert "the end of a leg's reach" in remarks(with_parameters(record, l1=100.3))[0]
+
+
+def test_axes_through_several_points_are_not_drafted():
+    with pytest.raises(UsageError, match="limb 1: the axis of U1 runs through further points"):
+        drafted(parse_chains(["U[x@O,y] P[z] R[y]", "U[x@O,y] P[z] R[y]", "S P[z] R[x]"]), Path("my.toml"))

@@ -18,7 +18,7 @@ from assur.synthesis.drafting.inputs import inputs_for
 from assur.synthesis.drafting.layout import LAYOUTS
 from assur.synthesis.drafting.limbs_apart import limbs_apart
 from assur.topology.analysis import Mode
-from assur.topology.chains import Chain, InnerLoop
+from assur.topology.chains import Chain, ChainJoint, InnerLoop
 from assur.topology.facts import Topology
 from assur.topology.poc import PocSet
 
@@ -32,6 +32,16 @@ GOOD = 0.3
 
 PROBLEMS: dict[Problem, str] = {"inverse": "working mode", "direct": "assembly mode"}
 """Problem -> whose modes are branches of it."""
+
+
+def _refuse_points_on_axes(chains: Sequence[Chain]) -> None:
+    for number, chain in enumerate(chains, 1):
+        for joint in chain.joints:
+            if isinstance(joint, ChainJoint) and joint.through:
+                raise UsageError(
+                    f"limb {number}: the axis of {joint.name} runs through further points, which no draft places",
+                    hint="draft R[x]@A R[y] with one label a joint; assur topology --chain takes several",
+                )
 
 
 @dataclass(frozen=True)
@@ -77,6 +87,7 @@ def drafted(
     """
     name = mechanism_name(path)
     chains, actuate = limbs_apart(chains, actuate)
+    _refuse_points_on_axes(chains)
     if len(chains) == 1 and not any(isinstance(element, InnerLoop) for element in chains[0].elements):
         raise UsageError(
             "one open chain closes no loop; a parallel mechanism needs two limbs or more, or an inner loop",

@@ -52,12 +52,16 @@ def _turned(elements: Sequence[Element], number: int, count: int, shared: bool) 
         elif isinstance(element, Parallelogram):
             turned.append(dataclasses.replace(element, axis=_about_z(element.axis, angle)))
         else:
-            primes = element.point.count(PRIME)
-            label_of_limb = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
             axes = tuple(_about_z(axis, angle) for axis in element.axes)
-            label = element.point if shared else label_of_limb
-            turned.append(dataclasses.replace(element, axes=axes, point=label))
+            label = element.point if shared else _of_limb(element.point, number)
+            through = tuple(tuple(_of_limb(point, number) for point in points) for points in element.through)
+            turned.append(dataclasses.replace(element, axes=axes, point=label, through=through))
     return tuple(turned)
+
+
+def _of_limb(label: str, number: int) -> str:
+    """A label of the first limb as that of another one."""
+    return f"{label.rstrip(PRIME)}{number + 1}{PRIME * label.count(PRIME)}" if label else ""
 
 
 def _about_z(axis: Vector, angle: float) -> Vector:

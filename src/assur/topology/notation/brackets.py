@@ -1,10 +1,11 @@
-"""Directions in brackets: `[x]`, `[-y]`, `[0.5,0.866,0]`, `[x,y]`, `[x; 0,0.6,0.8]`, and back to text."""
+"""Directions in brackets: `[x]`, `[-y]`, `[0.5,0.866,0]`, `[x,y]`, `[x@A; 0,0.6,0.8]`, and back to text."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from assur.topology.directions import DUST, NAMED, Vector, unit
 from assur.topology.notation.errors import Source
@@ -12,6 +13,7 @@ from assur.topology.notation.syntax import WrittenDirection
 
 _NAME = re.compile(r"([+-]?)\s*([xyzXYZ])")
 _NUMBER = re.compile(r"([+-]?)\s*((?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)", re.ASCII)
+_LABELS = re.compile(r"(.*?)((?:\s*@\s*[A-Z][a-z0-9]*'*)+)", re.ASCII)
 _EXPECTED = "x, y, z, -x, -y, -z or three numbers"
 _HINT = (
     "a direction is a name or three numbers with decimal points: [x], [0.5,0.866,0]; two of them: [x,y], [x; 0,0.6,0.8]"
@@ -23,14 +25,16 @@ _HUGE = 1e100
 def read_directions(source: Source, text: str, start: int, end: int) -> tuple[WrittenDirection, ...]:
     """The directions written in text[start:end], what stands between a pair of brackets.
 
-    Numbers are normalised; a vector whose length is one to its last digits stays as it is.
+    Numbers are normalised; a vector whose length is one to its last digits stays as it is. Behind a direction, `x@A`,
+    stand the labels of points that the axis runs through.
 
     Errors:
         NotationError: neither a name nor three numbers; the zero vector; a number that no float holds.
     """
     directions: list[WrittenDirection] = []
     numbers: list[tuple[float, int]] = []
-    for piece, at in _pieces(text, start, end):
+    for written, at in _pieces(text, start, end):
+        piece, labels = _labelled(written)
         name, number = _NAME.fullmatch(piece), _NUMBER.fullmatch(piece)
         if name and not numbers:
             directions.append(_named(name, at))
@@ -42,6 +46,10 @@ def read_directions(source: Source, text: str, start: int, end: int) -> tuple[Wr
         if len(numbers) == 3:
             directions.append(_vector(source, numbers, text[numbers[0][1] : at + len(piece)]))
             numbers = []
+        if labels and numbers:
+            raise source.error(at, f"a label behind {len(numbers)} of three numbers", "three numbers, then @A", _HINT)
+        if labels:
+            directions[-1] = replace(directions[-1], labels=labels)
     if numbers:
         count = len(numbers)
         raise source.error(numbers[0][1], "one number" if count == 1 else f"{count} numbers", "three", _HINT)
@@ -85,6 +93,12 @@ def _pieces(text: str, start: int, end: int) -> Iterator[tuple[str, int]]:
     """What stands between commas or semicolons, without the blanks around it, and where."""
     for match in re.compile(r"(?:^|[,;])\s*([^,;]*)").finditer(text[start:end]):
         yield match.group(1).rstrip(), start + match.start(1)
+
+
+def _labelled(piece: str) -> tuple[str, tuple[str, ...]]:
+    """What stands before labels, and the labels."""
+    match = _LABELS.fullmatch(piece)
+    return (match.group(1), tuple(match.group(2).replace(" ", "").split("@")[1:])) if match else (piece, ())
 
 
 def _named(match: re.Match[str], at: int) -> WrittenDirection:

@@ -19,7 +19,7 @@ def build(sketches: Sequence[Sketch], vectors: Sequence[Sequence[Vector]]) -> tu
         NotationError: two labels for one point.
     """
     names = JointNames([sketch.names for sketch in sketches])
-    labels = _fresh_labels({label for sketch in sketches for label in sketch.labels.values()})
+    labels = _fresh_labels({label for sketch in sketches for label in sketch.written_labels})
     chains = []
     for sketch, axes in zip(sketches, vectors, strict=True):
         points = _points(sketch, labels)
@@ -49,7 +49,8 @@ def _joint(
     if joint.kind:
         return Parallelogram(joint.kind, directions[0], names.of_joint("Pa", joint.name), general)
     name = names.of_joint(joint.letter, joint.name)
-    return ChainJoint(BY_LETTER[joint.letter], directions, points.get(joint.at, ""), name, general)
+    point, through = points.get(joint.at, ""), joint.points[1]
+    return ChainJoint(BY_LETTER[joint.letter], directions, point, name, general, through)
 
 
 def _points(sketch: Sketch, fresh: Iterator[str]) -> dict[int, str]:

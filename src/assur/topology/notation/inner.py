@@ -44,7 +44,7 @@ def expand(sketch: Sketch, tagged: Tagged) -> tuple[LoopSketch, SketchEnd, Sketc
 
 def _member(sketch: Sketch, tagged: Tagged, joint: WrittenJoint, normal: int) -> int:
     """A slot for a tagged element: an R along the normal of the plane, a P in the plane."""
-    if joint.label:
+    if any(joint.points):
         raise sketch.source.error(joint.at, "a label at a tagged element", "none: write the loop in braces")
     if all(other.letter == "P" for other in tagged.members):
         hint = f"a plane has one rotation too: ◇(P({tagged.tag}), P({tagged.tag})) ⊥ R({tagged.tag})"

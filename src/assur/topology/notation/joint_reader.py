@@ -21,6 +21,7 @@ _ROUND = re.compile(r"\^\s*\{\s*\(?([^(){}]*)\)?\s*\}|\^?\s*\(([^()]*)\)")
 _TAG = re.compile(r"(?:(\d*)P)?(?:(\d*)R)?", re.ASCII)
 _SQUARE = re.compile(r"\[([^\[\]]*)\]")
 _LABEL = re.compile(r"@\s*([A-Z][a-z0-9]*'*)", re.ASCII)
+_NOWHERE = WrittenDirection((0.0, 0.0, 0.0), "", 0)
 _BEGIN = re.compile(r"[\[(@]|\^[{(]")
 
 
@@ -99,17 +100,16 @@ def _round_expected(joint: WrittenJoint) -> str:
 
 
 def _with_label(cursor: Cursor, joint: WrittenJoint, label: str, start: int) -> WrittenJoint:
-    if joint.label:
-        raise cursor.error(start, "a second label", "one for each joint")
     if not BY_LETTER[joint.letter].turning:
-        what = "a parallelogram" if joint.kind else f"a {joint.letter}"
-        raise cursor.error(start, f"a label at {what}", "none: a translation has no place")
-    return replace(joint, label=label)
+        raise cursor.error(start, f"a label at {_article(joint)}", "none: a translation has no place")
+    return replace(joint, labels=(*joint.labels, label))
 
 
 def _checked(cursor: Cursor, joint: WrittenJoint) -> WrittenJoint:
     """The joint, if it has as many directions as its kind needs, or none."""
-    count, needed = len(joint.directions), BY_LETTER[joint.letter].axes
+    count, joint_type = len(joint.directions), BY_LETTER[joint.letter]
+    needed = joint_type.axes
+    _check_labels(cursor, joint)
     if count in (0, needed):
         return joint
     letter = joint.letter
@@ -119,6 +119,26 @@ def _checked(cursor: Cursor, joint: WrittenJoint) -> WrittenJoint:
     extra: WrittenDirection = joint.directions[min(count - 1, needed)]
     hint = hint or "decimals are written with a point: [0.5,0.866,0]"
     raise cursor.error(extra.at, f"{count} direction{'s' if count > 1 else ''} for {letter}", str(needed), hint)
+
+
+def _check_labels(cursor: Cursor, joint: WrittenJoint) -> None:
+    """Axes have places where joints turn; several points where there is one axis, and a centre is one point."""
+    joint_type = BY_LETTER[joint.letter]
+    for direction in joint.directions:
+        if direction.labels and not joint_type.turning:
+            raise cursor.error(direction.at, f"a label at {_article(joint)}", "none: a translation has no place")
+    if len(joint.labels) > 1 and joint_type.axes != 1:
+        hint = f"an axis of a U runs through further points as U[x@{joint.labels[1]},y]@{joint.labels[0]}"
+        shown = " and ".join(joint.labels)
+        raise cursor.error(joint.at, f"the centres {shown} of one {joint.letter}", "one", hint)
+    for labels in ((*joint.labels, *direction.labels) for direction in joint.directions or (_NOWHERE,)):
+        twice = next((label for index, label in enumerate(labels) if label in labels[:index]), "")
+        if twice:
+            raise cursor.error(joint.at, f"the label {twice} twice", "each point of an axis once")
+
+
+def _article(joint: WrittenJoint) -> str:
+    return "a parallelogram" if joint.kind else f"a {joint.letter}"
 
 
 def _group(match: re.Match[str]) -> str:

@@ -91,7 +91,7 @@ def _sign(left: _End, right: _End, style: Style) -> str:
 
 def _relations(left: _End, right: _End) -> tuple[str, ...]:
     near, far = left.joint, right.joint
-    shared = near is not None and far is not None and near.point != "" and near.point == far.point
+    shared = near is not None and far is not None and not {*near.points_on(-1)}.isdisjoint(far.points_on(0))
     if left.axis is None or right.axis is None:
         return ("meeting",) if shared else ()
     mixed = left.plane != right.plane

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from assur.errors import UsageError
 from assur.topology.chains import Chain
+from assur.topology.labelled_points import merged
 from assur.topology.notation.building import build
 from assur.topology.notation.errors import Source
 from assur.topology.notation.placing import place
@@ -18,7 +19,8 @@ def parse_chain(text: str) -> Chain:
 
     The plain form places every axis in the base frame, by x, y, z or by three numbers: `P[x] R[0.5,0.866,0]`,
     `U[x,y]`, `S`, `P(4R)[y]` (y the direction of its hinges; of the short links for 4S, 4U, 2US), `{... | ...}`
-    an inner loop, `R[x]@A R[y]@A` axes through one point. Axes without brackets are general: fixed directions in
+    an inner loop, `R[x]@A R[y]@A` axes through one point, `R[x]@A@B` one axis through two, `U[x@A,y]` a point on the
+    first axis of a U beside its centre. Axes without brackets are general: fixed directions in
     no special position, the two of a U perpendicular. Equal axes are distinct parallel lines unless they share a point.
 
     The literature's form says how neighbours lie: `-R1 ∥ R2 ⊥ R3-`, `HSOC{-P-P(4R)-}`, with ∥ (also || // |),
@@ -65,4 +67,17 @@ def parse_chains(texts: Sequence[str]) -> tuple[Chain, ...]:
 def _chains(texts: Sequence[str], *, numbered: bool) -> tuple[Chain, ...]:
     sources = [Source(text, number if numbered else 0) for number, text in enumerate(texts, start=1)]
     sketches = [sketch_of(read(source)) for source in sources]
-    return build(sketches, place(sketches))
+    chains = build(sketches, place(sketches))
+    for number in range(1, len(chains) + 1):
+        _refuse_merged(chains[:number], sources[number - 1])
+    return chains
+
+
+def _refuse_merged(chains: Sequence[Chain], source: Source) -> None:
+    """That no two labels of some limbs are one point by their axes; the last limb's text makes them so."""
+    names = [joint.name for chain in chains for joint in chain.joints]
+    pair = merged(chains, names)
+    if pair:
+        at = max(source.text.rfind(f"@{label}") for label in pair)
+        hint = "an axis that runs through two points lies along their line: R[x]@A@B and R[y]@A@B leave none"
+        raise source.error(max(at, 0), f"one point with the labels {' and '.join(pair)}", "two points", hint)

@@ -14,6 +14,8 @@ def plain_text(chain: Chain) -> str:
         >>> from assur.topology.notation import parse_chain
         >>> plain_text(parse_chain("{P[y]R[x]R[x]|P[y]R[x]R[x]}U[y,-z]@A S@A P(4R)[1,1,0]"))
         '{P[y] R[x] R[x] | P[y] R[x] R[x]} U[y,-z]@A S@A P(4R)[1,1,0]'
+        >>> plain_text(parse_chain("R[x]@A@B U[1,2,0@A,y]"))
+        'R[x]@A@B U[1,2,0@A; y]'
     """
     return _series(chain.elements)
 
@@ -26,13 +28,19 @@ def _element(element: Element) -> str:
     if isinstance(element, Parallelogram):
         return f"P({element.kind}){_brackets((element.axis,), element.general)}"
     if isinstance(element, ChainJoint):
-        label = f"@{element.point}" if element.point else ""
-        return element.type.letter + _brackets(element.axes, element.general) + label
+        one = element.type.axes == 1
+        label = _labels(element.points_on(0) if one else (element.point,) if element.point else ())
+        return element.type.letter + _brackets(element.axes, element.general, () if one else element.through) + label
     return "{" + " | ".join(map(_series, element.branches)) + "}"
 
 
-def _brackets(axes: tuple[Vector, ...], general: bool) -> str:
+def _brackets(axes: tuple[Vector, ...], general: bool, through: tuple[tuple[str, ...], ...] = ()) -> str:
     if general or not axes:
         return ""
-    texts = [direction_text(axis) for axis in axes]
+    points = through or ((),) * len(axes)
+    texts = [direction_text(axis) + _labels(labels) for axis, labels in zip(axes, points, strict=True)]
     return f"[{('; ' if any(',' in text for text in texts) else ',').join(texts)}]"
+
+
+def _labels(labels: tuple[str, ...]) -> str:
+    return "".join(f"@{label}" for label in labels)

@@ -46,7 +46,11 @@ def _free(branch: list[ChainJoint], normal: Vector) -> bool:
     """Whether three joints give the motions of the plane, all three of them."""
     hinges = [joint for joint in branch if joint.type.letter == "R"]
     sliders = [joint for joint in branch if joint.type.letter == "P"]
-    if len(hinges) + len(sliders) != 3 or not hinges or any(joint.general or joint.point for joint in branch):
+    if (
+        len(hinges) + len(sliders) != 3
+        or not hinges
+        or any(joint.general or joint.point or joint.through for joint in branch)
+    ):
         return False
     if not all(parallel(joint.axes[0], normal) for joint in hinges):
         return False

@@ -75,6 +75,7 @@ class Sketch:
     conditions: list[Condition] = field(default_factory=list)
     meetings: list[tuple[int, int, int]] = field(default_factory=list)
     labels: dict[int, str] = field(default_factory=dict)
+    written_labels: set[str] = field(default_factory=set)
     names: dict[str, int] = field(default_factory=dict)
     first: list[int] = field(default_factory=list)
 

@@ -53,8 +53,10 @@ def _part(sketch: Sketch, part: Part) -> Sketched:
 
 def _joint(sketch: Sketch, joint: WrittenJoint) -> Sketched:
     _note_name(sketch, joint)
-    if joint.label:
-        sketch.labels[joint.at] = joint.label
+    point, further = joint.points
+    if point:
+        sketch.labels[joint.at] = point
+    sketch.written_labels.update({point, *(label for labels in further for label in labels)} - {""})
     count = BY_LETTER[joint.letter].axes
     slots = tuple(sketch.slot(joint.directions[i] if joint.directions else None) for i in range(count))
     if slots and not sketch.first:

@@ -12,11 +12,12 @@ from assur.topology.notation.signs import Relation
 
 @dataclass(frozen=True)
 class WrittenDirection:
-    """A direction that was written in brackets, `shown` as it was written, and where."""
+    """A direction that was written in brackets, `shown` as it was written, and where; labels of points on the axis."""
 
     vector: Vector
     shown: str
     at: int
+    labels: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Tag:
 
 @dataclass(frozen=True)
 class WrittenJoint:
-    """A joint, or a parallelogram if it has a `kind`; `name` and `label` are empty if not written."""
+    """A joint, or a parallelogram if it has a `kind`; `name` is empty and `labels` are none if not written."""
 
     letter: str
     at: int
@@ -41,7 +42,21 @@ class WrittenJoint:
     name: str = ""
     tag: Tag | None = None
     directions: tuple[WrittenDirection, ...] = ()
-    label: str = ""
+    labels: tuple[str, ...] = ()
+
+    @property
+    def points(self) -> tuple[str, tuple[tuple[str, ...], ...]]:
+        """Label of its point or centre, and those of further points on each axis; an only axis has no centre.
+
+        >>> direction = WrittenDirection((1.0, 0.0, 0.0), "x", 2, ("A",))
+        >>> WrittenJoint("R", 0, directions=(direction,), labels=("B",)).points
+        ('B', (('A',),))
+        """
+        inside = [direction.labels for direction in self.directions]
+        if len(inside) < 2:
+            first, *others = (*self.labels, *(label for labels in inside for label in labels), "")
+            return first, (tuple(others[:-1]),) if others[:-1] else ()
+        return "".join(self.labels), tuple(inside) if any(inside) else ()
 
 
 @dataclass(frozen=True)

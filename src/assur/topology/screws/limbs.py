@@ -8,7 +8,7 @@ sense of POC theory, and only the twists can say what its platform does.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
 
@@ -32,7 +32,7 @@ def _turned(element: Element) -> Element:
         turned = tuple(tuple(_turned(inner) for inner in reversed(branch)) for branch in element.branches)
         return InnerLoop(turned, element.name)
     if isinstance(element, ChainJoint):
-        return ChainJoint(element.type, element.axes[::-1], element.point, element.name, element.general)
+        return replace(element, axes=element.axes[::-1], through=element.through[::-1])
     return element
 
 

@@ -19,6 +19,7 @@ from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.labelled_points import centre_of, tied_points
 from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
 from assur.topology.screws.shared_points import common_end
 
@@ -64,7 +65,8 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
     """
     if not chains:
         raise UsageError("there is no chain to place; at least one is needed")
-    building = _Building(np.random.default_rng(seed), iter(_names(chains)), len(chains) == 1)
+    rng, names = np.random.default_rng(seed), joint_names(chains)
+    building = _Building(rng, iter(names), len(chains) == 1, labels=tied_points(chains, names, rng))
     tips = [building.limb(number, chain) for number, chain in enumerate(chains, 1)]
     somewhere = building.somewhere()
     point = tips[0] if len(chains) == 1 else building.labels.get(common_end(chains))
@@ -114,9 +116,10 @@ class _Building:
             return None if any(tip is None for tip in tips) else self.somewhere()
         if isinstance(element, Parallelogram):
             return self._parallelogram(element, start, end)
-        point = self.labels.setdefault(element.point, self.somewhere()) if element.point else self.somewhere()
+        name = next(self.names)
+        point = self.labels.setdefault(centre_of(element, name), self.somewhere())
         pitch = self.rng.uniform(*LENGTHS) / 2 * self.rng.choice([-1.0, 1.0])
-        self._add(next(self.names), element.type, start, end, element.axes, point, pitch)
+        self._add(name, element.type, start, end, element.axes, point, pitch)
         return None if not element.type.turning else point
 
     def _add(
@@ -171,7 +174,7 @@ def _screws(joint_type: JointType, axes: FloatArray, point: FloatArray, pitch: f
     return np.array(screws)
 
 
-def _names(chains: Sequence[Chain]) -> list[str]:
+def joint_names(chains: Sequence[Chain]) -> list[str]:
     """Names of all joints in order: their own if these are unique, else by limb and place."""
     declared = [joint.name for chain in chains for joint in chain.joints]
     if all(declared) and max(Counter(declared).values(), default=1) == 1:

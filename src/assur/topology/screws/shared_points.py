@@ -106,8 +106,8 @@ def common_end(chains: Sequence[Chain]) -> str:
     """
     resisting = [chain for chain in chains if sum(joint.freedoms for joint in chain.joints) < 6]
     ends = [chain.elements[-1] for chain in resisting]
-    labels = {end.point if isinstance(end, ChainJoint) and pivoted(end.type) else "" for end in ends}
-    return labels.pop() if len(labels) == 1 else ""
+    labels = [end.points_on(-1) if isinstance(end, ChainJoint) and pivoted(end.type) else () for end in ends]
+    return next((label for label in labels[0] if all(label in others for others in labels)), "") if labels else ""
 
 
 def point_of_platform(linkage: Linkage, chains: Sequence[Chain]) -> str:
@@ -115,8 +115,10 @@ def point_of_platform(linkage: Linkage, chains: Sequence[Chain]) -> str:
     label = common_end(chains)
     if not label:
         return ""
-    runs = [_end_run(chain, -1) for chain in chains if _label(chain.elements[-1]) == label]
+    runs = [_end_run(chain, -1) for chain in chains if label in _labels(chain.elements[-1])]
     places = [common_place([line_of(linkage.joints[name]) for name in run]) for run in runs]
+    beside = [chain.joints[-1].name for chain in chains if label in _beside_centre(chain.elements[-1])]
+    places += [(linkage.joints[name].point, linkage.joints[name].screws[-1, :3]) for name in beside]
     size = size_of(linkage)
     return label if all(_off(linkage.point, place) < SAME * size for place in places) else ""
 
@@ -200,9 +202,10 @@ def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
     first = ordered[0]
     if not isinstance(first, ChainJoint) or not pivoted(first.type):
         return ()
-    names = [first.name]
+    names, shared = [first.name], set(_labels(first))
     for element in ordered[1:]:
-        if not (first.point and isinstance(element, ChainJoint) and element.point == first.point):
+        shared &= set(_labels(element))
+        if not shared:
             break
         names.append(element.name)
     return tuple(names)
@@ -221,6 +224,20 @@ def _slides_along(ordered: Sequence[Element]) -> bool:
 
 def _label(joint: Element) -> str:
     return joint.point if isinstance(joint, ChainJoint) else ""
+
+
+def _beside_centre(joint: Element) -> tuple[str, ...]:
+    """Labels of the points on a joint's last axis that are not its centre."""
+    if not isinstance(joint, ChainJoint) or len(joint.axes) < 2:
+        return ()
+    return joint.points_on(-1)[bool(joint.point) :]
+
+
+def _labels(joint: Element) -> list[str]:
+    """Labels of the points that all axes of a joint run through."""
+    if not isinstance(joint, ChainJoint):
+        return []
+    return [*joint.points_on(0)] if len(joint.axes) == 1 else [joint.point] if joint.point else []
 
 
 def _renamed(elements: Sequence[Element], labels: Mapping[str, str]) -> tuple[Element, ...]:

@@ -6,7 +6,8 @@ has afterwards, it can go on in several modes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from assur.topology.directions import coplanar, parallel
 from assur.topology.symbolic.blocks import Block, Structure
@@ -28,7 +29,7 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
     for index, item in enumerate(chain):
         if isinstance(item, Slide):
             continue
-        through = frozenset({points.setdefault(item.point, len(points))}) if item.point else frozenset[int]()
+        through = frozenset(points.setdefault(label, len(points)) for label in item.labels)
         line = Line(index, item.name, through)
         if not item.finite:
             rods.append(line)
@@ -37,14 +38,19 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
         lines = same[0] if same else {}
         if not same:
             blocks.append((item, lines))
-        lines.setdefault(item.point or f"#{index} alone", line)
-    if any(_flat([turn for turn, lines in blocks if label in lines]) for label in points):
+        known = next((label for label in item.labels if label in lines), next(iter(item.labels), f"#{index} alone"))
+        lines[known] = replace(lines.get(known, line), points=lines.get(known, line).points | through)
+    if any(_flat([turn for turn, lines in blocks if _pass(lines.values(), point)]) for point in points.values()):
         return Refusal("three axes through one point lie in one plane as written")
     slides = [slide for slide in chain if isinstance(slide, Slide)]
     turns = [Block(turn.direction, tuple(lines.values()), net=False) for turn, lines in blocks]
     last = chain[-1] if chain else None
     end = points.get(last.point, GENERAL) if isinstance(last, Turn) else GENERAL
     return Structure((*slides, *turns), tuple(rods), end)
+
+
+def _pass(lines: Iterable[Line], point: int) -> bool:
+    return any(point in line.points for line in lines)
 
 
 def _flat(turns: Sequence[Turn]) -> bool:

@@ -35,7 +35,8 @@ class Turn:
     Attributes:
         direction: of the axis, fixed in both links; None where it is any of those of a spherical joint, or a rod's.
         name: the joint or loop that makes it.
-        point: label of a point on the axis.
+        point: label of a point on the axis, the centre of a joint with several axes.
+        further: labels of other points on it.
         finite: False for a parallelogram's rotation about its rods, which is a freedom but turns nothing.
         located: False where nothing says where the axis lies (an inner loop's).
         pitch: whether it advances as it turns.
@@ -47,6 +48,17 @@ class Turn:
     finite: bool = True
     located: bool = True
     pitch: bool = False
+    further: tuple[str, ...] = ()
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """All labels of points on the axis, of a centre first; those that begin with # are of nothing else."""
+        return (self.point, *self.further) if self.point else self.further
+
+    @property
+    def shared(self) -> frozenset[str]:
+        """The labels that other joints may have too."""
+        return frozenset(label for label in self.labels if not label.startswith("#"))
 
 
 Elementary = Slide | Turn
@@ -92,7 +104,8 @@ def _of_joint(joint: ChainJoint, name: str, centre: str) -> list[Elementary]:
     for step in joint.type.steps:
         direction, last = joint.directions[step.direction], parts[-1] if parts else None
         if step.kind != "slide":
-            parts.append(Turn(direction, name, point, pitch=step.kind == "screw"))
+            further = tuple(label for label in joint.points_on(step.direction) if label != point)
+            parts.append(Turn(direction, name, point, pitch=step.kind == "screw", further=further))
         elif isinstance(last, Slide):
             parts[-1] = Slide(last.span.with_direction(direction), name)
         else:

@@ -11,6 +11,7 @@ from assur.topology.symbolic.motion import Mode, Motion, check_mode
 from assur.topology.symbolic.operation_modes import as_written, unturned
 from assur.topology.symbolic.platform_set import is_helical, platform_set
 from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.subgroups import that_hold_back
 
 
 def parallel(
@@ -45,7 +46,8 @@ def parallel(
     limbs = [motion.limb for motion in motions if motion.limb is not None]
     if len(limbs) < len(motions):
         return Refusal("the pitch of a helical joint couples a rotation and a translation")
-    assembly = unturned(limbs) if mode == "translation" else as_written(limbs)
+    holding = that_hold_back(limbs)
+    assembly = unturned(holding) if mode == "translation" else as_written(holding)
     if isinstance(assembly, Refusal):
         return assembly
     refusal = why_it_does_not_last(assembly) if mode == "free" else None

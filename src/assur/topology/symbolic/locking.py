@@ -119,8 +119,9 @@ def _single(joint: ChainJoint, step: Step) -> ChainJoint:
     """One step of a joint as a joint."""
     axes = (joint.directions[step.direction],)
     if step.kind == "slide":
-        return dataclasses.replace(joint, type=PRISMATIC, axes=axes, point="")
-    return dataclasses.replace(joint, type=REVOLUTE, axes=axes)
+        return dataclasses.replace(joint, type=PRISMATIC, axes=axes, point="", through=())
+    through = joint.through[step.direction : step.direction + 1]
+    return dataclasses.replace(joint, type=REVOLUTE, axes=axes, through=through)
 
 
 # ---- a general configuration ----------------------------------------------------------------------------------

@@ -53,6 +53,7 @@ class _Walk:
     last: Turn | None = None
     line: int = -1
     point: int = GENERAL
+    labelled: dict[str, int] = field(default_factory=dict)
     points: int = 0
     moved: Span = field(default_factory=Span)
 
@@ -90,25 +91,23 @@ def meeting(chain: Sequence[Elementary]) -> Meeting:
 def _turn(walk: _Walk, turn: Turn) -> None:
     """The next turn: a new line, or the last one again; through the last point, or through a new one."""
     last, moved = walk.last, walk.moved
-    shared = last is not None and turn.point != "" and turn.point == last.point
+    shared = [label for label in turn.labels if label in walk.labelled] if _line_or_point(moved) else []
     walk.last, walk.moved = turn, Span()
-    if not shared or last is None or not _line_or_point(moved):
+    before = last is not None and _runs_along(last.direction, moved)
+    after = _runs_along(turn.direction, moved)
+    old, previous = walk.labelled, walk.line
+    if not (shared and last is not None and before and after and parallel(last.direction, turn.direction)):
         _new_line(walk, turn)
-        walk.point = walk.new_point() if turn.point else GENERAL
-        _pass_through(walk)
-        return
-    before, after = _runs_along(last.direction, moved), _runs_along(turn.direction, moved)
-    coaxial = before and after and parallel(last.direction, turn.direction)
-    old, previous = walk.point, walk.line
-    if not coaxial:
-        _new_line(walk, turn)
-    if moved.dim:
-        walk.point = walk.new_point()
+    kept = {} if moved.dim else {label: old[label] for label in shared}
+    walk.labelled = {label: kept[label] if label in kept else walk.new_point() for label in turn.labels}
+    walk.point = walk.labelled[(shared or turn.labels)[0]] if turn.labels else GENERAL
+    for point in walk.labelled.values():
+        walk.through(walk.line, point)
+    for label in shared if moved.dim else ():
         if before:
-            walk.through(previous, walk.point)
+            walk.through(previous, walk.labelled[label])
         if after:
-            walk.through(walk.line, old)
-    _pass_through(walk)
+            walk.through(walk.line, old[label])
 
 
 def _new_line(walk: _Walk, turn: Turn) -> None:

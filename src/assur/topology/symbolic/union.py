@@ -68,8 +68,9 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
         freedoms=sum(part.span.dim if isinstance(part, Slide) else 1 for part in pieces),
         conditions=(*conditions, *_conditions(pieces, mode)),
         centre=_centre(pieces),
-        labels=frozenset(part.point for part in pieces if isinstance(part, Turn) and not part.point.startswith("#"))
-        - {""},
+        labels=frozenset(
+            label for part in pieces if isinstance(part, Turn) for label in part.labels if label[0] != "#"
+        ),
         parts=lambda: tuple(motion.derivation for motion in loops),
         name=name,
     )
