@@ -1,6 +1,7 @@
 """`assur derive`: formulas in words and as data, a file that `check` takes, and what resists by its name."""
 
 import json
+import re
 import shutil
 import subprocess
 
@@ -63,6 +64,23 @@ def test_the_data_says_reasons_unknowns_choices_and_what_is_assumed(assur_cli):
         assert own["roots"] == 2
         assert own["formulas"][choice["root"]] == f"sqrt({choice['radicand']})"
     assert last["conditions"] == ["N3 != 0"]
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+def test_what_is_printed_of_a_draft_defines_each_name_before_it_is_used(assur_cli, tmp_path, problem):
+    file = tmp_path / "my.toml"
+    chains = ["R[y] R[y] P[y] R[y]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"]
+    assur_cli("new", str(file), *(word for chain in chains for word in ("--chain", chain)))
+    record = load_record(str(file))
+    given = {*record.parameters, *(driven.name for driven in record.inputs), *"xyz", "sqrt", "sin", "cos"}
+    turns = {f"{ratio}_{name}" for ratio in ("sin", "cos") for name in given}
+    defined = re.findall(r"^    (\w+) = (.+)$", assur_cli("derive", str(file), "--problem", problem).out, re.MULTILINE)
+    known = given | turns if problem == "direct" else given
+    assert len(defined) > 20
+    for name, formula in defined:
+        if not formula.startswith("0"):  # an equation, or what it means where a quantity vanishes
+            assert {*re.findall(r"[A-Za-z]\w*", formula)} <= known, name
+            known = known | {name}
 
 
 @pytest.fixture

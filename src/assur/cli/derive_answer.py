@@ -269,7 +269,7 @@ def _meaning(text: str) -> Padding:
 
 def _end(part: DerivedProblem) -> Iterator[RenderableType]:
     """Results, and what is proved."""
-    yield from (Verbatim(f"    {name} = {text}") for name, text in part.results.items())
+    yield from (Verbatim(f"    {name} = {text}") for name, text in {**part.lengths, **part.results}.items())
     proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
     yield f"{proved}, modulo a prime of 160 bits"
     if part.not_proved is not ABSENT:
