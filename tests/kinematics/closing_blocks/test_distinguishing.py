@@ -100,8 +100,9 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
     record = load_record(name)
     home = home_values(record)
     assert np.all(signs_of(record, problem, home[None]) == 1)
-    answer = _Solutions.of(record, problem, home, ())
-    names = signs_of(record, problem, _solved(record, problem, home))
+    (values,) = _solved(record, problem, home[None])
+    answer = _Solutions.of(record, values, ())
+    names = signs_of(record, problem, values)
     regular = np.all(names != 0, axis=1)
     for number in np.unique(answer.solution):
         assert len(np.unique(names[regular & (answer.solution == number)], axis=0)) <= 1

@@ -80,6 +80,12 @@ def test_a_symmetric_mechanism_is_one_template():
     assert [item.name for item in read_text(text, PATH).inputs] == ["q1", "q2", "q3"]
 
 
+def test_no_limb_bears_the_name_of_a_dimension():
+    """e1 and l1 are dimensions: a fifth kind of limb, named e, was refused for it."""
+    record = read(of("P[x] R[z] R[z]", "R[z] P[x] R[z]", "R[z] R[z] P[x]", "R[z] R[z] R[z]", "P[x] P[y] R[z]"))
+    assert {name.partition(".")[0] for name in record.joints} == {"a1", "b1", "c1", "d1", "f1"}
+
+
 def test_chains_that_are_turns_of_one_another_are_seen_to_be():
     together = drafted(repeated("R[y] P(4S)[y]", 3), PATH).text
     apart = drafted(load_topology("delta_4s").chains, PATH).text

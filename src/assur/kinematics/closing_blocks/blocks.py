@@ -7,6 +7,7 @@ rods may spin about their own lines.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -210,13 +211,21 @@ def _free_columns(record: MechanismRecord, problem: Problem) -> dict[str, tuple[
 
 def _candidates(pieces: Sequence[FreeChain]) -> Iterator[ClosingBlock]:
     """Connected sets of chains in which every node closes, the smaller ones first; if they are many, all at once."""
+    numbered = [(chain, _freedoms(chain.joints)) for chain in pieces]
     for size in range(1, len(pieces) + 1):
         if comb(len(pieces), size) > MOST_SETS and size < len(pieces):
             continue
-        for chosen in combinations(pieces, size):
-            ends = [end for chain in chosen for end in chain.ends]
-            if all(ends.count(end) >= 2 for end in ends) and _connected(chosen):
+        for rows in combinations(numbered, size):
+            chosen, free = zip(*rows, strict=True)
+            meeting = Counter(end for chain in chosen for end in chain.ends)
+            loop_count = size - len(meeting) + 1  # where they are connected
+            if min(meeting.values()) > 1 and sum(free) <= 6 * loop_count and _connected(chosen):
                 yield _block([joint for chain in chosen for joint in chain.joints])
+
+
+def _freedoms(joints: Sequence[FreeJoint]) -> float:
+    """How many freedoms of joints loops must determine at least: half a spin at each that may be a ball is none."""
+    return sum(len(joint.columns) - (len(joint.columns) > 1) / 2 for joint in joints)
 
 
 def _block(joints: Sequence[FreeJoint]) -> ClosingBlock:
@@ -251,13 +260,10 @@ def _few_assemblies(record: MechanismRecord) -> ScrewColumns:
 @lru_cache(maxsize=8192)
 def _closes(block: ClosingBlock, screws: ScrewColumns) -> bool:
     """Whether the loops of a block determine its free joints, but for the spins of its rods."""
-    balls = len(set(block.owners)) if len(block.columns) > len(set(block.owners)) else 0
-    if 6 * len(block.loops) < len(block.columns) - balls // 2:
-        return False
     matrices = block.derivative(screws, [screws.record.base] * len(block.loops))
     sizes = np.linalg.svd(matrices, compute_uv=False)
     lost = len(block.columns) - int(np.max(np.sum(sizes > SMALL * sizes[:, :1], axis=1)))
-    return lost == 0 or (balls > 1 and lost == len(_spins(block, screws)))
+    return lost == len(_spins(block, screws)) if lost else True
 
 
 @lru_cache(maxsize=8192)
@@ -265,18 +271,22 @@ def _spins(block: ClosingBlock, screws: ScrewColumns) -> tuple[Spin, ...]:
     """Pairs of its ball joints with a part between them that may turn about their line."""
     record = screws.record
     own = [name for name in block.joints if name != PLATFORM and record.joints[name].type.ball]
-    matrices = block.derivative(screws, [record.base] * len(block.loops))
     spins: list[Spin] = []
     for first, second in combinations(own, 2):
         if {first, second} & {name for spin in spins for name in (spin.first, spin.second)}:
             continue
-        for senses in ((1, -1), (1, 1)):
-            spin = Spin(first, second, senses)
-            motion = spin_rates(spin, screws)[:, list(block.columns)]
-            if np.max(np.abs(np.einsum("nij,nj->ni", matrices, motion))) < SPINNING:
-                spins.append(spin)
+        through = {(loop.get(first, 0), loop.get(second, 0)) for loop in block.loops}
+        for sense in (-1, 1):  # turns about the line through both cancel in every loop
+            if all(one + sense * other == 0 for one, other in through):
+                if _apart(first, second, screws):
+                    spins.append(Spin(first, second, (1, sense)))
                 break
     return tuple(spins)
+
+
+def _apart(first: str, second: str, screws: ScrewColumns) -> bool:
+    gaps = np.linalg.norm(screws.centre(second) - screws.centre(first), axis=1)
+    return bool(np.min(gaps) > SMALL * characteristic_length(screws.record))
 
 
 def spin_rates(spin: Spin, screws: ScrewColumns) -> FloatArray:

@@ -8,7 +8,7 @@ with another one that does, so that what looks alike bears one name.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -87,7 +87,7 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     record = with_ball_ends(record)
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
-    answers = [_Solutions.of(ordered, problem, target, known) for target in _targets(ordered, known)]
+    answers = [_Solutions.of(ordered, values, known) for values in _solved(ordered, problem, _targets(ordered, known))]
     combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
     moving = {k for k, factor in enumerate(known) if isinstance(factor, BlockSign) and factor.moving}
@@ -115,8 +115,8 @@ class _Solutions:
     signs: SignArray
 
     @classmethod
-    def of(cls, record: MechanismRecord, problem: Problem, target: FloatArray, known: Sequence[Factor]) -> _Solutions:
-        values = _solved(record, problem, target)
+    def of(cls, record: MechanismRecord, values: FloatArray, known: Sequence[Factor]) -> _Solutions:
+        """Those that assemblies (N, n) are."""
         solution = _numbered(record, values)
         screws = ScrewColumns(record, values)
         signs = np.array([factor.signs(screws) for factor in known], dtype=np.int8).reshape(len(known), len(values)).T
@@ -158,31 +158,49 @@ def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
     return values[:: -(-len(values) // PROBLEMS)]
 
 
-def _solved(record: MechanismRecord, problem: Problem, target: FloatArray) -> FloatArray:
+def _solved(record: MechanismRecord, problem: Problem, targets: FloatArray) -> list[FloatArray]:
+    """Assemblies (N, n) at the inputs or the pose of each target; what all ask for is closed together."""
+    asking = [_solving(record, problem, target) for target in targets]
+    begun = {k: next(own) for k, own in enumerate(asking)}
+    solved: dict[int, FloatArray] = {}
+    while begun:
+        closed = _closed(record, problem, [(targets[k], starts) for k, starts in begun.items()])
+        for k, values in zip([*begun], closed, strict=True):
+            try:
+                begun[k] = asking[k].send(values)
+            except StopIteration as end:
+                solved[k] = end.value
+                del begun[k]
+    return [solved[k] for k in range(len(targets))]
+
+
+def _solving(
+    record: MechanismRecord, problem: Problem, target: FloatArray
+) -> Generator[FloatArray, FloatArray, FloatArray]:
     """Assemblies (N, n) at the inputs or the pose of another, in which still stands what does about home.
 
-    In loops of rods on balls, to which few starts by chance lead, they are those that the loops have in turn. Where few
-    starts lead to one all the same, others begin as parts of those that are known.
+    Yields starts (S, n), and is sent the assemblies to which they lead. In loops of rods on balls, to which few starts
+    by chance lead, they are those that the loops have in turn. Where few starts lead to one all the same, others begin
+    as parts of those that are known.
     """
     if _rods_on_balls(record):
         turn = _in_turn(record, problem, target)
         if turn.complete:
-            values = np.concatenate([target[None], turn.joints])
-            return values[[not other for other in otherwise(record, values)]]
+            return (yield np.concatenate([target[None], turn.joints]))
     rng = np.random.default_rng(0)
-    values = _closed(record, problem, target, np.concatenate([target[None], by_chance(record, AT_ONCE, rng)]))
+    values = yield np.concatenate([target[None], by_chance(record, AT_ONCE, rng)])
     limbs = _limbs_apart(record) if problem == "inverse" and not open_freedoms(record) else []
     if len(limbs) > 1 and len(values) >= STARTS // 4:
         return _exchanged(values, limbs, rng)
     for _ in range(AT_ONCE, STARTS, AT_ONCE):
         if len(values) >= max(STARTS // 4, MET * (1 + int(np.max(_numbered(record, values), initial=0)))):
             return values
-        values = np.concatenate([values, _closed(record, problem, target, by_chance(record, AT_ONCE, rng))])
+        values = np.concatenate([values, (yield by_chance(record, AT_ONCE, rng))])
     for _ in range(ROUNDS):
         if not 0 < len(values) < STARTS // 4:
             break
         begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
-        values = np.concatenate([values, _closed(record, problem, target, begun)])
+        values = np.concatenate([values, (yield begun)])
     return values
 
 
@@ -220,15 +238,26 @@ def _in_turn(record: MechanismRecord, problem: Problem, target: FloatArray) -> L
     return solve_by_loops(record, pose=pose_of(record, target))
 
 
-def _closed(record: MechanismRecord, problem: Problem, target: FloatArray, begun: FloatArray) -> FloatArray:
-    """Those (N, n) to which starts (S, n) lead."""
+def _closed(
+    record: MechanismRecord, problem: Problem, asked: Sequence[tuple[FloatArray, FloatArray]]
+) -> list[FloatArray]:
+    """For each pair of a target (n,) and starts (S, n) the assemblies (N, n) to which these lead."""
+    begun = np.concatenate([starts for _, starts in asked])
+    counts = [len(starts) for _, starts in asked]
+    targets = np.repeat([target for target, _ in asked], counts, axis=0)
     if problem == "direct":
-        starts = held_inputs(record, begun, inputs_of(record, target))
+        starts = held_inputs(record, begun, inputs_of(record, targets))
         closed = assemble(record, starts, held=record.input_indices, far=True, max_steps=MOST_STEPS)
     else:
-        closed = assemble(record, begun, poses=pose_of(record, target), far=True, max_steps=MOST_STEPS)
-    values = closed.values[closed.closed]
-    return values[[not other for other in otherwise(record, values)]]
+        closed = assemble(record, begun, poses=pose_of(record, targets), far=True, max_steps=MOST_STEPS)
+    kept = closed.closed.copy()
+    kept[kept] = [not other for other in otherwise(record, closed.values[kept])]
+    return [
+        values[own]
+        for values, own in zip(
+            *(np.split(array, np.cumsum(counts)[:-1]) for array in (closed.values, kept)), strict=True
+        )
+    ]
 
 
 def _joined_where_alike(differing: NDArray[np.bool_], count: int) -> list[list[int]]:

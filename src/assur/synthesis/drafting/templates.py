@@ -96,8 +96,9 @@ def _parts(family: Family, parts: int) -> tuple[Family, ...]:
 
 
 def _names(groups: Sequence[Family]) -> list[str]:
-    """Names of templates: leg, or a, b, c where there are several."""
-    return ["leg"] if len(groups) == 1 else [_letter(number).lower() for number, _ in enumerate(groups)]
+    """Names of templates: leg, or a, b, c where there are several; not e and l, as e1 and l1 are dimensions."""
+    letters = (letter for letter in map(_letter, count()) if letter not in "EL")
+    return ["leg"] if len(groups) == 1 else [letter.lower() for letter in islice(letters, len(groups))]
 
 
 def _template(
