@@ -14,10 +14,12 @@ from assur.kinematics.structure import linkage
 from assur.model.mechanism import MechanismRecord
 from assur.model.topologies import load_topology, means_topology
 from assur.model.topology_description import TopologyDescription
+from assur.results.answers.topology import MetMode
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import InputsBy, Topology
+from assur.topology.met_modes import DRAWS, met_modes
 from assur.topology.notation import parse_chains
 from assur.topology.screws.configurations import ImmobileError
 from assur.topology.screws.placing import place
@@ -95,6 +97,37 @@ def _named(topology: Topology, described: MechanismRecord | TopologyDescription)
 def _is_name(text: str) -> bool:
     """Whether a text is a name or a path rather than a chain: chains have capital letters and brackets."""
     return text.endswith(".toml") or "/" in text.strip("-") or re.fullmatch(r"[a-z0-9][a-z0-9_.-]*", text) is not None
+
+
+def operation_modes(what: str | Path | MechanismRecord | Sequence[str], /) -> tuple[MetMode, ...]:
+    """The operation modes of a mechanism wherever it can be assembled: kinds that are met, not proved to be all.
+
+    Assemblies are drawn by chance, of chains with several dimensions; of files with theirs. Modes that meet at home
+    come first.
+
+    Args:
+        what: as `topology` takes it.
+
+    Errors:
+        NotationError, UnknownNameError, MechanismFileError: as `topology`.
+
+    Example: a 3-UPU moves in more ways than the one for which it is built; with equal limbs in one more.
+
+    >>> from assur.model.registry import load_record
+    >>> sorted(mode.name for mode in operation_modes("three_upu"))
+    ['3R', '3T']
+    >>> sorted(mode.name for mode in operation_modes(load_record("three_upu")))
+    ['2T1R', '3R', '3T']
+    """
+    if isinstance(what, MechanismRecord):
+        return met_modes([linkage(what)] * DRAWS)
+    if isinstance(what, str) and not _is_name(what):
+        what = [what]
+    if isinstance(what, str | Path) and not means_topology(what):
+        return met_modes([linkage(admitted_record(what))] * DRAWS)
+    chains = load_topology(what).chains if isinstance(what, str | Path) else parse_chains(what)
+    names = default_inputs(chains)
+    return met_modes([place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)])
 
 
 def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mode | None) -> Topology:

@@ -290,3 +290,11 @@ def test_faults_of_a_topology_file_are_listed_with_their_lines(assur_cli, tmp_pa
     assert run.err.startswith("error: 2 problems:\n")
     assert f"{path}:4: chains[0]: 'Q' at character 6" in run.err
     assert f"{path}:4: chains[1]: a bracket that is not closed" in run.err
+
+
+def test_a_mechanism_with_one_mode_has_one(assur_cli):
+    answer = assur_cli("topology", "tripteron", "--modes", "--json").json
+    (mode,) = answer["modes"]
+    assert (mode["name"], mode["at_home"], mode["coupling_degree"]) == ("3T", True, 1)
+    assert [mode["poc"][part] for part in ("t", "r", "dim")] == [3, 0, 3]
+    assert "not proved to be all" in assur_cli("topology", "tripteron", "--modes").out

@@ -32,6 +32,9 @@ def topology(
     mode: Annotated[
         str | None, Parameter(help="translation: the platform keeps its orientation. home: as the chains stand.")
     ] = None,
+    modes: Annotated[
+        bool, Parameter(help="Also list its operation modes, wherever it can be assembled: met by chance.")
+    ] = False,
     graph: Annotated[
         str | None, Parameter(metavar="FILE", help="Also draw links and joints into this .svg, .pdf or .png file.")
     ] = None,
@@ -51,6 +54,7 @@ def topology(
     For example:
         assur topology zeng2019
         assur topology zeng2019 --graph zeng2019.svg
+        assur topology three_upu --modes
         assur topology --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
         assur topology --chain "P[x] R[x] R[x] R[x]" \
             --chain "P[y] R[y] R[y] R[y]" --chain "P[z] R[z] R[z] R[z]"
@@ -59,11 +63,14 @@ def topology(
     """
     from assur.cli import topology_answer
     from assur.cli.paths import output_file
+    from assur.derived_topology import operation_modes
     from assur.derived_topology import topology as derive
 
     path = output_file(graph, ENDINGS) if graph is not None else None
-    found = derive(_asked(what, chain), actuate=_actuators(actuate), mode=_mode(mode))
-    return topology_answer.outcome(found, path, latex=latex, ascii_only=ascii_)
+    asked = _asked(what, chain)
+    derived = derive(asked, actuate=_actuators(actuate), mode=_mode(mode))
+    met = operation_modes(asked) if modes else None
+    return topology_answer.outcome(derived, path, met, latex=latex, ascii_only=ascii_)
 
 
 def _asked(what: str | None, chain: Sequence[str]) -> str | tuple[str, ...]:

@@ -13,9 +13,11 @@ from rich.padding import Padding
 from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading, table
+from assur.results.answers.topology import MetMode
 from assur.results.plain_text import signed
 from assur.topology.answers import answers, replacements_by_kind
 from assur.topology.facts import Known, Topology
+from assur.topology.met_modes import NOT_ALL
 
 Said = Callable[[str], str]
 """A text as it is printed: as it is, or in plain letters."""
@@ -34,9 +36,13 @@ def shortened(text: str) -> str:
     return _LONG.sub(lambda number: f"{float(number[0]):.4g}", text)
 
 
-def outcome(topology: Topology, graph: Path | None, *, latex: bool, ascii_only: bool) -> Outcome:
-    """The answer; the graph is written where a path is given."""
+def outcome(
+    topology: Topology, graph: Path | None, modes: tuple[MetMode, ...] | None, *, latex: bool, ascii_only: bool
+) -> Outcome:
+    """The answer, with operation modes where they are given; the graph is written where a path is given."""
     data = answers(topology)
+    if modes is not None:
+        data = replace(data, modes=modes, notes=(*data.notes, NOT_ALL))
     wrong = 1 if any(note.startswith("declared ") for note in topology.notes) else 0  # a claim of the file fails
     if graph is not None:
         _draw(topology, graph)
@@ -46,7 +52,7 @@ def outcome(topology: Topology, graph: Path | None, *, latex: bool, ascii_only: 
 
         text = fragment(topology)
         return Outcome(replace(data, latex=text), lambda: [Verbatim(text)], wrong)
-    return Outcome(data, lambda: _shown(topology, graph, ascii_only=ascii_only), wrong)
+    return Outcome(data, lambda: _shown(topology, graph, modes, ascii_only=ascii_only), wrong)
 
 
 def _draw(topology: Topology, path: Path) -> None:
@@ -60,7 +66,9 @@ def _draw(topology: Topology, path: Path) -> None:
     write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
 
 
-def _shown(topology: Topology, graph: Path | None, *, ascii_only: bool) -> Iterable[RenderableType]:
+def _shown(
+    topology: Topology, graph: Path | None, modes: tuple[MetMode, ...] | None, *, ascii_only: bool
+) -> Iterable[RenderableType]:
     say: Said = ascii_text if ascii_only else str
     yield heading(say(_title(topology)))
     yield from map(say, _result(topology))
@@ -70,8 +78,32 @@ def _shown(topology: Topology, graph: Path | None, *, ascii_only: bool) -> Itera
             yield ""
             yield heading(title)
             yield from map(ascii_rule, lines) if ascii_only else lines
+    if modes is not None:
+        yield ""
+        yield heading("operation modes")
+        yield from map(ascii_rule, _modes(modes, say)) if ascii_only else _modes(modes, say)
     if graph is not None:
         yield f"written: {graph}"
+
+
+def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:
+    names = ("mode", say("POC set"), "dim", "F", say("κ"), "at home", "crossed")
+    rows = [
+        (
+            mode.name,
+            say(mode.poc.text),
+            str(mode.poc.dim),
+            str(mode.dof),
+            "-" if mode.coupling_degree is None else str(mode.coupling_degree),
+            "yes" if mode.at_home else "",
+            ", ".join(mode.crossed),
+        )
+        for mode in modes
+    ]
+    yield table(names, rows)
+    yield say(f"{NOT_ALL}.")
+    if any(mode.coupling_degree is None for mode in modes):
+        yield say("κ -: the drives do not fix that mode.")
 
 
 def _title(topology: Topology) -> str:

@@ -128,6 +128,27 @@ class OperationModeFacts:
 
 
 @dataclass(frozen=True)
+class MetMode:
+    """A kind of operation mode that was met among a mechanism's assemblies.
+
+    `name` counts the independent elements of its POC set, as 3T, 2T1R; kinds of one name have a letter after it.
+    `coupling_degree` is null where the drives do not fix it. `crossed` are parallelograms that have crossed over.
+    `example` is an assembly: for each joint how far each of its freedoms is from home, in rad and lengths.
+    """
+
+    name: str
+    poc: WrittenPoc
+    dof: int
+    coupling_degree: int | None
+    at_home: bool
+    crossed: Names
+    example: Mapping[str, tuple[float, ...]]
+
+    def __str__(self) -> str:
+        return f"{self.name}: F = {self.dof}, {self.poc.text} with dim {self.poc.dim}"
+
+
+@dataclass(frozen=True)
 class RedundantConstraints:
     """6 v - rank of the closure: with parallelograms as generalised joints, and with all joints."""
 
@@ -243,7 +264,7 @@ class TopologyAnswer(Answer):
     """The facts of a topology; what does not exist is null.
 
     `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
-    was written, `latex` a fragment for a paper.
+    was written, `latex` a fragment for a paper; `modes` are there where they are asked for.
     """
 
     name: str
@@ -275,6 +296,7 @@ class TopologyAnswer(Answer):
     derivation: Names
     operation_modes: tuple[OperationModeFacts, ...]
     notes: Names
+    modes: tuple[MetMode, ...] | Absent = ABSENT
     graph: str | Absent = ABSENT
     latex: str | Absent = ABSENT
 

@@ -73,6 +73,9 @@ WAYS = 3
 TRIES = 4
 """How often other directions, in smaller steps, are tried where loops do not close."""
 
+CROSSED = 1e-6
+"""Unit vectors along the short links of a parallelogram differ by more, where it has crossed over."""
+
 UNSTEADY = ("P(4S)", "P(2US)")
 """Parallelograms that their own loop does not keep such."""
 
@@ -130,6 +133,36 @@ def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold |
         f"the loops of the linkage have a freedom at home but do not close {count} times after a finite displacement",
         hint="a joint at a dead centre, or a freedom that is only instantaneous; start from another configuration",
     )
+
+
+def closed_by_chance(linkage: Linkage, count: int, seed: int = 0, hold: Hold | None = None) -> FloatArray:
+    """Assemblies (M, n), M <= count, anywhere: joint values by chance, loops closed from there.
+
+    Args:
+        linkage: assembled at home.
+        count: of the joint values that are drawn.
+        seed: of the draw.
+        hold: as in `configurations`.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, hold)
+    rng = np.random.default_rng(seed)
+    start = rng.uniform(-1.0, 1.0, (count, len(tree.scales))) * np.where(_turning(tree), np.pi, 1.0)
+    closed = minimise(system.at, start, tolerance=CLOSED, max_steps=80)
+    values = minimise(system.at, closed.x[closed.converged], tolerance=EXACTLY, max_steps=25).x
+    return np.asarray(values * tree.scales)
+
+
+def crossed(linkage: Linkage, value: FloatArray) -> tuple[str, ...]:
+    """Names of the parallelograms whose short links are not parallel at an assembly (n,): they have crossed over."""
+    tree = screw_tree(linkage)
+    frames = tree.at(value[None] / tree.scales).frames[0, :, :3, :3]
+
+    def skew(group: Group) -> float:
+        turned = frames[tree.frames[group.child]] - frames[tree.frames[group.parent]]
+        return float(np.linalg.norm(turned @ _short_side(linkage, group)))
+
+    return tuple(group.name for group in linkage.groups.values() if skew(group) > CROSSED)
 
 
 def walked(
