@@ -1,11 +1,18 @@
-"""Every registered mechanism, and regular configurations of it, for laws that hold for all of them."""
+"""Every registered mechanism, and regular configurations of it, for laws that hold for all of them.
 
+Those whose closed form is derived are there once more, with the derived file in the place of the written one.
+"""
+
+import shutil
 from functools import lru_cache
+from pathlib import Path
+from tempfile import mkdtemp
 
 import numpy as np
 import pytest
 
 import assur
+from assur.derivation.kept import derived_closed_form
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.modes import all_modes
@@ -14,15 +21,46 @@ from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics import rotations
 from assur.singularity.examples import singular_examples as find_singular_examples
 
+DERIVED = ("zeng2019", "fivebar", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide", "tsai_platform",
+           "three_p2us", "three_crr", "tripteron", "planar_3rrr", "three_rrc")  # fmt: skip
+"""Not the 3-RPR: its derived form has legs of either sign, and so more branches than the written one."""
+MOTION = ("the motion where centres of circles or spheres coincide is no curve of the derived form",
+          ("test_the_status_is_that_of_the_joint_graph",
+           "test_direct_at_singular_examples_finds_the_pose_or_says_why_not"))  # fmt: skip
+STRAIGHT = ("a limb that is straight is no factor of the derived form, whose velocity equations hold there",
+            ("test_near_singular_configurations_close_and_are_labelled",))  # fmt: skip
+CLOSE = ("near a root that is nearly double the derived polynomial loses digits",
+         ("test_every_direct_solution_closes_the_whole_joint_graph",))  # fmt: skip
+LACKING = {
+    "fivebar": MOTION, "delta_4s": MOTION, "tsai_platform": MOTION, "three_crr": STRAIGHT, "tripteron": STRAIGHT,
+    "three_rrc": CLOSE,
+}  # fmt: skip
+"""What derived forms do not have so far, and the laws that fail for it."""
+REPLACED = [pytest.param(f"{name}, derived", marks=pytest.mark.deep) for name in DERIVED]
 
-@pytest.fixture(params=assur.names())
+
+@pytest.fixture(params=[*assur.names(), *REPLACED])
 def mechanism(request):
+    name, _, derived = request.param.partition(", ")
+    why, laws = LACKING.get(name, ("", ()))
+    if derived and request.function.__name__ in laws:
+        request.applymarker(pytest.mark.xfail(reason=why, strict=True))
     return _loaded(request.param)
 
 
 @lru_cache
 def _loaded(name):
-    return assur.load(name)
+    plain, _, derived = name.partition(", ")
+    return assur.load(_replaced(plain) if derived else plain)
+
+
+def _replaced(name):
+    """The mechanism's folder with its derived closed form."""
+    written = assur.load(name)
+    folder = Path(mkdtemp()) / name
+    shutil.copytree(written.file.parent, folder)
+    (folder / "closed_form.py").write_text(derived_closed_form(written), encoding="utf-8")
+    return folder
 
 
 @pytest.fixture
@@ -43,8 +81,8 @@ def regular(mechanism, poses):
 
 
 @pytest.fixture
-def singular_examples(mechanism):
-    return _examples(mechanism.name)
+def singular_examples(request, mechanism):
+    return _examples(request.node.callspec.params["mechanism"])
 
 
 @lru_cache

@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from assur.derivation import kept
-from assur.derivation.kept import derived_closed_form
+from assur.derivation.kept import derived_closed_form, derived_document
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import analytic_solution
 from assur.joint_graph.geometry import characteristic_length
@@ -83,6 +83,20 @@ def test_dimensions_without_which_no_loop_closes_are_told_as_relations(tmp_path)
                for name, own in record.parameters.items()}  # fmt: skip
     assert abs(float((relation.symbol - relation.formula).subs(numbers))) < 1e-9
     assert solution.closes()
+
+
+def test_a_document_is_written_once_for_each_choice_of_problems(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path))
+    record, calls = load_record("fivebar"), []
+
+    def written():
+        calls.append(len(calls))
+        return f"document {len(calls)}"
+
+    assert [derived_document(record, ("direct",), written) for _ in range(2)] == ["document 1"] * 2
+    assert derived_document(record, ("direct", "inverse"), written) == "document 2"
+    assert derived_document(load_record("fivebar", l1=0.5), ("direct",), written) == "document 3"
+    assert derived_closed_form(record).startswith('"""Closed form of fivebar')
 
 
 def test_what_was_derived_is_kept_and_so_is_why_nothing_was(tmp_path, monkeypatch):

@@ -18,7 +18,7 @@ from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
-from assur.derivation.kept import derived_closed_form
+from assur.derivation.kept import derived_closed_form, derived_document
 from assur.derivation.linear import value_of
 from assur.derivation.linear_span import NoIdentityError
 from assur.derivation.not_derived import NotDerivedError
@@ -115,13 +115,16 @@ def _write_document(path: Path, record: Mechanism, parts: Sequence[DerivedProble
     from assur.derivation.printed_derivation import printed_derivation
     from assur.derived_topology import topology
 
-    solved = {NAMES[own.problem]: analytic_solution(record, NAMES[own.problem]) for own in parts if not own.why}
-    why = {NAMES[own.problem]: own.why for own in parts if own.why}
-    try:
-        loops = topology(record)
-    except AssurError:  # a mechanism may have formulas and no topology that the theory gives
-        loops = None
-    write_whole(path, document(printed_derivation(record, solved, why), loops))
+    def written() -> str:
+        solved = {NAMES[own.problem]: analytic_solution(record, NAMES[own.problem]) for own in parts if not own.why}
+        why = {NAMES[own.problem]: own.why for own in parts if own.why}
+        try:
+            loops = topology(record)
+        except AssurError:  # a mechanism may have formulas and no topology that the theory gives
+            loops = None
+        return document(printed_derivation(record, solved, why), loops)
+
+    write_whole(path, derived_document(record, [NAMES[own.problem] for own in parts], written))
 
 
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:

@@ -14,7 +14,7 @@ from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_meanings import ClosedFormMeanings, CoincidenceMotion
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import Root
-from assur.derivation.joint_formulas import BallRotation
+from assur.derivation.joint_formulas import BallRotation, Pointing
 from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
 from assur.derivation.symbols import circle_of
 from assur.kinematics.modes import Problem, written_quantities
@@ -282,15 +282,6 @@ class ClosedFormText:
     def _core(self) -> str:
         names = [str(symbol) for symbol in (*self.formulas.posed, *self.formulas.unknowns)]
         lines = [f"def _core(ns, p, {', '.join(names)}):"]
-        for own in self.formulas.joints.pointings:
-            sense = "-" if own.back else ""
-            (a, b), (c, d) = own.carrier, own.hinge
-            ahead, beside = (self.printer.doprint(-part if own.back else part) for part in (own.ahead, own.beside))
-            along = self.printer.doprint(own.along)
-            lines.append(f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)")
-            if sense:
-                lines.append(f"    {c} = -{c}")
-            names += [str(symbol) for symbol in (a, b, c, d)]
         lines.append("    return SimpleNamespace(")
         lines += [f"        {name}={name}," for name in names]
         lines += [
@@ -301,14 +292,23 @@ class ClosedFormText:
         return "\n".join(lines)
 
     def _taken(self, expressions: Sequence[Any]) -> list[str]:
-        """Lines that take out of the core what formulas need."""
-        named = [*self.formulas.posed, *self.formulas.unknowns]
-        named += [
-            symbol for own in self.formulas.joints.pointings for pair in (own.carrier, own.hinge) for symbol in pair
-        ]
+        """Lines that take out of the core what formulas need, and angles of links that point somewhere."""
         used = {symbol for part in expressions for symbol in sympy.sympify(part).free_symbols}
-        names = [str(symbol) for symbol in named if symbol in used]
-        return [f"    {name} = core.{name}" for name in names]
+        pointings = [own for own in self.formulas.joints.pointings if used & {*own.carrier, *own.hinge}]
+        used |= {symbol for own in pointings for part in (own.ahead, own.beside, own.along) for symbol in
+                 sympy.sympify(part).free_symbols}  # fmt: skip
+        named = [*self.formulas.posed, *self.formulas.unknowns]
+        lines = [f"    {symbol} = core.{symbol}" for symbol in named if symbol in used]
+        return [*lines, *(line for own in pointings for line in self._pointed(own))]
+
+    def _pointed(self, own: Pointing) -> Iterator[str]:
+        """Angles of the carrier and of the hinge of a link that points somewhere."""
+        (a, b), (c, d) = own.carrier, own.hinge
+        ahead, beside = (self.printer.doprint(-part if own.back else part) for part in (own.ahead, own.beside))
+        along = self.printer.doprint(own.along)
+        yield f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)"
+        if own.back:
+            yield f"    {c} = -{c}"
 
     def _joints(self) -> str:
         flat: list[Any] = []

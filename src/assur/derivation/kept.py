@@ -1,4 +1,4 @@
-"""Closed forms that were derived, kept in the user's cache: the file's text, or why there is none.
+"""What was derived, kept in the user's cache: the text of closed forms, or why there is none, and of documents.
 
 The name of an entry is a digest of the mechanism's file, of the dimensions, of assur's version and of the code of this
 folder. What is kept has passed: a derived form agrees with its joint graph before anyone sees it.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -17,6 +18,7 @@ from assur.derivation.derivation import derive
 from assur.derivation.not_derived import NotDerivedError
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
+from assur.kinematics.modes import Problem
 from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
@@ -37,25 +39,39 @@ def derived_closed_form(record: MechanismRecord) -> str:
     >>> derived_closed_form(load_record("fivebar")).splitlines()[0]
     '\"\"\"Closed form of fivebar, derived from its joint graph: rod1 and rod2.\"\"\"'
     """
-    name = _name(record)
+    text, why = _kept(record, "closed form", lambda: _that_agrees(record))
+    if why:
+        raise NotDerivedError(why)
+    return text
+
+
+def derived_document(record: MechanismRecord, problems: Sequence[Problem], write: Callable[[], str]) -> str:
+    """The LaTeX document of some problems of a mechanism, written once for each file.
+
+    >>> from assur.model.registry import load_record
+    >>> derived_document(load_record("fivebar"), (), lambda: "none")
+    'none'
+    """
+    return _kept(record, f"document {' '.join(problems)}", write)[0]
+
+
+def _kept(record: MechanismRecord, what: str, make: Callable[[], str]) -> tuple[str, str]:
+    """A text that is kept, or is made and kept; or why there is none."""
+    name = _name(record, what)
     digest, _, body = (own_content(KIND, name, LARGEST) or b"").partition(b"\n")
     if body and digest.decode("ascii", "replace") == hashlib.sha256(body).hexdigest():
         with suppress(ValueError, TypeError, KeyError, RecursionError):
             entry = json.loads(body)
-            if entry["why"]:
-                raise NotDerivedError(str(entry["why"]))
-            return str(entry["text"])
+            return str(entry["text"]), str(entry["why"])
     text = why = ""
     try:
-        text = _that_agrees(record)
+        text = make()
     except NotDerivedError as error:
         why = str(error)
     body = json.dumps({"text": text, "why": why}).encode()
     with suppress(OSError):
         keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
-    if why:
-        raise NotDerivedError(why)
-    return text
+    return text, why
 
 
 def _that_agrees(record: MechanismRecord) -> str:
@@ -71,10 +87,10 @@ def _that_agrees(record: MechanismRecord) -> str:
     return text
 
 
-def _name(record: MechanismRecord) -> str:
+def _name(record: MechanismRecord, what: str) -> str:
     text = record.description.text if record.description else ""
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
-    parts = (VERSION, _code(), json.dumps(own), record.name, text)
+    parts = (VERSION, _code(), json.dumps(own), record.name, text, what)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"
 
 

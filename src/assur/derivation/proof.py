@@ -17,7 +17,7 @@ from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.orientations import Orientation
 from assur.derivation.polynomial_identities import PolynomialIdentities, polynomial_identities
 from assur.derivation.solution import AnalyticSolution
-from assur.derivation.space import turning_in_space
+from assur.derivation.space import without_identities
 from assur.derivation.strokes import StrokeVector, stroke_vectors
 from assur.results.answers.derivation import (
     DerivationProof,
@@ -37,7 +37,7 @@ def proof(solution: AnalyticSolution) -> DerivationProof:
     >>> own.loops["loop2"], own.sets[0].equations[0]
     ('l1*sin_theta1 - l1*sin_theta2 + l2*sin_rod1 - l2*sin_rod2', {'loop2': '1'})
     """
-    for what in turning_in_space(solution):
+    for what in without_identities(solution):
         raise NoIdentityError(f"no identities are written for {what}")
     return _Proof(solution).whole()
 

@@ -10,7 +10,7 @@ from itertools import combinations
 
 import sympy
 
-from assur.derivation.linear import Form, rank, solved
+from assur.derivation.linear import Form, divided, rank, solved, sparse
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.witness import ModularWitness
@@ -33,11 +33,28 @@ def next_set(
             others = [unknown for direction in left if direction not in chosen for unknown in direction.unknowns]
             if whole - rank(forms, others, witness) >= more + sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
-                return chosen, _independent(
-                    own, [unknown for direction in chosen for unknown in direction.unknowns], witness
-                )
+                kept = _independent(own, [unknown for direction in chosen for unknown in direction.unknowns], witness)
+                return chosen, kept if more else sparse(kept, witness, everywhere=True)
     names = ", ".join(direction.name for direction in left)
     raise NotDerivedError(f"what is given does not determine {names}")
+
+
+def equations_alone(
+    forms: Sequence[Form],
+    chosen: Sequence[UnknownDirection],
+    others: Sequence[UnknownDirection],
+    witness: ModularWitness,
+) -> list[Form]:
+    """Equations that determine a set whether the others are known or not; none where there are none.
+
+    Of three limbs whose platform stands where its inputs say, each is solved alone so, whatever the others do.
+    """
+    inside, outside = ([own for direction in part for own in direction.unknowns] for part in (chosen, others))
+    left = rank(forms, [*outside, *inside], witness) - rank(forms, outside, witness)
+    if left < sum(direction.freedoms for direction in chosen):
+        return []
+    _, own = solved(forms, outside, witness)
+    return sparse([divided(form) for form in _independent(own, inside, witness)], witness, everywhere=True)
 
 
 def _independent(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> list[Form]:

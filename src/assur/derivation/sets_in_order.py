@@ -15,7 +15,7 @@ from assur.derivation.loop_equations import LoopEquations, UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.resisting_set import ResistingSetError
-from assur.derivation.sets import next_set
+from assur.derivation.sets import equations_alone, next_set
 from assur.derivation.strokes import StrokeVector, with_strokes
 from assur.derivation.symbols import GivenSymbols
 from assur.model.mechanism import MechanismRecord
@@ -54,7 +54,8 @@ class _Order:
         self.vectors, self.carriers = vectors, loops.carriers
         self.taken = _names(symbols.record) | {own.symbol.name for own in problem.placed.named.definitions}
         instead = {vector.circle: vector.direction for vector in vectors}
-        self.left = [instead.get(own, own) for own in loops.directions]
+        self.every = [instead.get(own, own) for own in loops.directions]
+        self.left = [*self.every]
 
     def sets(self) -> tuple[SolvedSet, ...]:
         sets: list[SolvedSet] = []
@@ -77,6 +78,10 @@ class _Order:
 
     def _next(self, later: bool) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
         chosen, equations = next_set(self.forms, self.left, self.witness)
+        if later and not self.problem.loops.axes and not self.carriers and self._follow(equations):
+            apart = [own for own in self.every if own not in chosen]
+            if alone := equations_alone(self.problem.forms, chosen, apart, self.witness):
+                return chosen, alone
         if later and not self.problem.loops.axes and not self._plain(equations):
             own = [divided(form) for form in self._rest(self.problem.plain())]
             other, others = next_set(sparse(own, self.witness), self.left, self.witness)
@@ -105,6 +110,11 @@ class _Order:
         """Whether coefficients of unknowns are of dimensions alone, so that they vanish nowhere in the motion."""
         dimensions = {*self.symbols.parameters.values()}
         return all(part.free_symbols <= dimensions for form in equations for key, part in form.items() if key != ONE)
+
+    def _follow(self, equations: Sequence[Form]) -> bool:
+        """Whether what is solved before is in equations."""
+        before = {*_unknowns([own for own in self.every if own not in self.left])}
+        return any(before & part.free_symbols for form in equations for part in form.values())
 
     def _coupled(self) -> SolvedSet | None:
         """A set of links on axes that turn, where no set is determined without them."""

@@ -16,7 +16,7 @@ from assur.derivation.cycle_types import CycleType, GroupFindings, findings
 from assur.derivation.definitions import Definition
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.home_numbers import home_numbers
-from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, sparse, value_of
+from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, replaced, solved, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets_in_order import SetProblem
@@ -166,8 +166,18 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
-    x, y, z = (value_of(form) for form in loops.point)
+    x, y, z = (value_of(_without_unknowns(form, sets, witness)) for form in loops.point)
     return AnalyticSolution(symbols, placed, loops, sets, backward, (x, y, z))
+
+
+def _without_unknowns(form: Form, sets: Sequence[SolvedSet], witness: ModularWitness) -> Form:
+    """A form by the equations of sets, where these say it whatever their unknowns are; else as it is."""
+    unknowns = [own for part in sets for direction in part.directions for own in direction.unknowns]
+    rows = [row for part in sets for row in part.equations]
+    if not {*unknowns} & form.keys() or rank([*rows, form], unknowns, witness) > rank(rows, unknowns, witness):
+        return form
+    values, _ = solved(rows, unknowns, witness)
+    return {key: part for key, part in replaced(form, values, witness).items() if key not in unknowns}
 
 
 def _more_than(

@@ -1,4 +1,4 @@
-"""What of a solution turns in space: identities and velocity equations do not reach it."""
+"""What of a solution turns in space: velocity equations do not reach it, and identities not all of it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,21 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
     >>> [*turning_in_space(analytic_solution(load_record("fivebar"), "inverse"))]
     []
     """
+    yield from without_identities(solution)
+    record = solution.symbols.record
+    turned = solution.placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
+    if solution.symbols.problem == "inverse" and turned:
+        yield "a platform of whose orientation the pose says a part"
+
+
+def without_identities(solution: AnalyticSolution) -> Iterator[str]:
+    """What of it has no identities.
+
+    >>> from assur.derivation.solution import analytic_solution
+    >>> from assur.model.registry import load_record
+    >>> [*without_identities(analytic_solution(load_record("h4_robot"), "direct"))]
+    ['links that do not turn because three directions close']
+    """
     placed, loops = solution.placed, solution.loops
     if placed.named.definitions:
         yield "directions that what is given turns in space"
@@ -27,7 +42,3 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
         yield "rods whose length is sought"
     if any(own.third is not None for own in placed.reasons):
         yield "links that do not turn because three directions close"
-    record = solution.symbols.record
-    turned = placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
-    if solution.symbols.problem == "inverse" and turned:
-        yield "a platform of whose orientation the pose says a part"

@@ -56,6 +56,18 @@ def test_polynomials_are_verified_exactly(name, capsys):
 
 
 @pytest.mark.deep
+def test_a_pose_that_says_a_part_of_the_orientation_is_verified(capsys):
+    assert main(["derive", "three_rps", "--problem", "inverse", "--prove", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    (proved,) = verified(document, "three_rps")
+    assert (proved.branches, proved.closed) == (16, 16)
+    (own,) = (own for own in document["problems"][0]["proof"]["orientations"] if own["link"] == "platform")
+    own["axis"] = ["1", "0", "0"]
+    with pytest.raises(RefusedError, match="platform"):
+        verified(document, "three_rps")
+
+
+@pytest.mark.deep
 @pytest.mark.parametrize("name", DRAFTS)
 def test_polynomials_of_drafts_are_verified_exactly(name, tmp_path, capsys):
     chains, degree = DRAFTS[name]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, hops, point
@@ -10,7 +10,7 @@ from assur.verifier.field import NoExactError
 from assur.verifier.formula import NumberType, number
 from assur.verifier.graph import STEPS, Graph
 from assur.verifier.mechanism import COORDINATES, FileMechanism
-from assur.verifier.vectors import ONE, ZERO, Matrix, Vector, about, add, plus, product, scaled, subtract, times
+from assur.verifier.vectors import ONE, ZERO, Matrix, Vector, about, add, apply, plus, product, scaled, subtract, times
 
 ANGLES = ("phi", "theta", "psi")
 LENGTHS = ("x", "y", "z")
@@ -31,6 +31,11 @@ def given_names(mechanism: FileMechanism, problem: str) -> tuple[list[str], list
     return lengths, [own.name for own, kind in zip(mechanism.printed, kinds, strict=True) if kind != "slide"]
 
 
+def platform_turns(mechanism: FileMechanism, proof: Mapping[str, Any]) -> bool:
+    """Whether a proof has it that the platform turns about a direction."""
+    return any(own["link"] == mechanism.platform and own["kind"] == "circle" for own in proof["orientations"])
+
+
 def kind_of(mechanism: FileMechanism, joint: str, component: str) -> str:
     """What a coordinate of a joint is: a slide or a turn."""
     own = mechanism.joints[joint].type
@@ -47,6 +52,7 @@ class FileAssembly:
         names: values of the parameters.
         given: lengths by their names, angles as `cos_<name>` and `sin_<name>`.
         zero: whether a number vanishes.
+        turning: whether the platform may turn by the one angle that the pose leaves out, which is zero else.
 
     Attributes:
         hops: what is said of orientations.
@@ -61,6 +67,7 @@ class FileAssembly:
         names: Mapping[str, Any],
         given: Mapping[str, Any],
         zero: IsZero,
+        turning: bool = False,
     ) -> None:
         self.graph, self.problem, self.given, self.zero = Graph(mechanism, numbers, names), problem, given, zero
         self.mechanism, self.sliding = mechanism, dict[str, Any]()
@@ -80,12 +87,18 @@ class FileAssembly:
             locked[f"{joint} {place}"] = cosine, times(own.sense, sine)
         self.hops = [*hops(self.graph, locked)]
         if problem == "inverse" and {*ANGLES} & {*mechanism.pose}:
-            self.hops.append(Hop(mechanism.base, mechanism.platform, self._orientation()))
+            left_out = [name for name in ANGLES if name not in mechanism.pose]
+            free = ANGLES.index(left_out[0]) if turning and len(left_out) == 1 else len(ANGLES)
+            before, after = self._turned(ANGLES[:free]), self._turned(ANGLES[free + 1 :])
+            axis = apply(before, ONE[2 - free]) if free < len(ANGLES) else None
+            self.hops.append(Hop(mechanism.base, mechanism.platform, product(before, after), axis))
 
-    def _orientation(self) -> Matrix:
+    def _turned(self, names: Sequence[str]) -> Matrix:
+        """By angles that are given, as far as they are coordinates of the pose."""
         turn = ONE
-        for name, axis in zip(ANGLES, reversed(ONE), strict=True):
+        for name in names:
             if name in self.mechanism.pose:
+                axis = ONE[2 - ANGLES.index(name)]
                 turn = product(turn, about(axis, self.given[f"cos_{name}"], self.given[f"sin_{name}"]))
         return turn
 

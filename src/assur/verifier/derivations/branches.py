@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from assur.verifier.derivations.assembly import FileAssembly, given_names
+from assur.verifier.derivations.assembly import FileAssembly, given_names, platform_turns
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
 from assur.verifier.derivations.turning import ClaimedTurn, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
@@ -69,7 +69,8 @@ class _DrawnBranches:
         for name in angles:
             given[f"cos_{name}"], given[f"sin_{name}"] = field.circle(AngleSum({f" {name}": Fraction(1)}))
         self.values = {**self.names, **given}
-        self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero)
+        turning = platform_turns(mechanism, problem["proof"])
+        self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero, turning)
 
     def closing(self, conditions: Sequence[str]) -> int:
         """How many branches close, of as many as are looked at."""

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from assur.verifier.derivations.assembly import FileAssembly, given_names
+from assur.verifier.derivations.assembly import FileAssembly, given_names, platform_turns
 from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.known_formulas import KnownFormulas, Multiples
 from assur.verifier.derivations.orientations import OrientationCheck
@@ -111,7 +111,8 @@ class _ProblemCheck(KnownFormulas):
         super().__init__(numbers, {**parameters, **given}, own.positive)
         self.conditions: list[str] = []
         self.circles: set[str] = set()
-        self.assembly = FileAssembly(own, self.name, numbers, parameters, given, self.zero)
+        turning = platform_turns(own, self.proof)
+        self.assembly = FileAssembly(own, self.name, numbers, parameters, given, self.zero, turning)
         graph = self.assembly.graph
         axes = [part for joint in graph.joints.values() for axis in (*joint.axes, *joint.turn) for part in axis]
         self.allowed += divisors(part for part in axes if isinstance(part, Term))  # a direction has a length
