@@ -7,6 +7,7 @@ import pytest
 
 from assur.cli.main import main
 from assur.joint_graph.frames import frames
+from assur.kinematics.border import inputs_of
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, distinguishing_signs
@@ -14,6 +15,7 @@ from assur.kinematics.closure import closure_jacobian
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import lettered, mode_texts
 from assur.kinematics.naming import sign_meanings
+from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
 from regular_walks import changes
@@ -192,6 +194,22 @@ def test_a_limb_whose_screws_span_no_one_space_has_a_sign_at_those_that_leave_a_
     """The knee of an overconstrained limb: a P(4R) in it may stand on either side, what looks alike bears one name."""
     signs = distinguishing_signs(own, "inverse")
     assert [{name.partition(".")[0] for name in sign.joints} for sign in signs] == [{"leg1"}, {"leg2"}, {"leg3"}]
+
+
+@pytest.mark.parametrize(
+    ("own", "names"),
+    [
+        ("Exechon", (2, 32)),
+        *(pytest.param(*row, marks=pytest.mark.deep) for row in [("2UPR-RPU", (2, 32)), ("Tsai", (2, 8))]),
+    ],
+    indirect=["own"],
+)
+def test_overconstrained_mechanisms_have_as_many_names_as_their_loops_tell(own, names):
+    """Two limbs that stay in one plane close in a loop of their own; a limb's flip is a direct factor, too."""
+    home = home_values(own)
+    solutions = direct(own, inputs_of(own, home) + 0.01), inverse(own, pose_of(own, home) + 0.01)
+    told = [signs_of(own, one.problem, one.joints[one.exists]) for one in solutions]
+    assert tuple(len(np.unique(signs, axis=0)) for signs in told) == names
 
 
 @pytest.mark.deep

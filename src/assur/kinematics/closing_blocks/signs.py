@@ -31,6 +31,7 @@ from assur.kinematics.closing_blocks.blocks import (
     spin_rates,
 )
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
+from assur.kinematics.closing_blocks.spaces import in_narrow_loops, span, steadiest_link
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.rotations import cross
@@ -39,9 +40,6 @@ FloatArray = NDArray[np.float64]
 SignArray = NDArray[np.int8]
 MERGED = 1e-9
 """Share of a block's largest determinant among assemblies by chance below which it has no sign."""
-
-SAME_SPACE = 1e-4
-"""Share of the largest singular value by which bases of one space fill no further direction."""
 
 PAIRS = 14
 """Links up to which two of them are held at once, in search of factors."""
@@ -182,7 +180,7 @@ def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
     for number, block in enumerate(blocks):
         if not _independent(blocks, number, screws):
             continue
-        own = _span(screws.motions[:, list(block.columns)])
+        own = span(screws.motions[:, list(block.columns)])
         matrices = block.derivative(screws, [screws.record.base] * len(block.loops))
         if np.max(np.abs(matrices @ own)) > SPINNING:  # what is a motion here is none there
             continue
@@ -220,23 +218,26 @@ def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns
         for group in closing_groups(record, problem, links_held, whole_pose):
             if group.whole.columns not in met:
                 met.add(group.whole.columns)
-                yield from _of_group(group, screws)
+                yield from _of_group(group, screws, record.input_indices if problem == "direct" else ())
 
 
-def _of_group(group: ClosingGroup, screws: ScrewColumns) -> Iterator[BlockSign]:
-    whole = _sign(group.whole, screws)
+def _of_group(group: ClosingGroup, screws: ScrewColumns, inputs: Sequence[int]) -> Iterator[BlockSign]:
+    whole = _sign(group.whole, screws) or _sign(in_narrow_loops(group.whole, screws.few), screws)
     blocks = group.blocks if whole is not None else group.blocks[-1:]
-    signs = [*_along_motions(group.whole, screws, parts=whole is None), whole]
+    signs = [*_along_motions(group.whole, screws, inputs, parts=whole is None), whole]
     signs += [_sign(block, screws) for block in blocks]
     signs.append(_along_slides(group.whole, screws))
     yield from (sign for sign in signs if sign is not None)
 
 
-def _along_motions(block: ClosingBlock, screws: ScrewColumns, *, parts: bool) -> Iterator[BlockSign | None]:
+def _along_motions(
+    block: ClosingBlock, screws: ScrewColumns, inputs: Sequence[int], *, parts: bool
+) -> Iterator[BlockSign | None]:
     """A block's sign at rates of motions where these are fewer, and with `parts` at those that leave a joint at rest.
 
     Where screws depend on each other at some rates, they do at all: so these are singular there, too. Rods that stay
-    parallel leave a platform its translations; whether it could turn as well is another factor of the whole.
+    parallel leave a platform its translations; whether it could turn as well is another factor of the whole. Rates of
+    motions in which one of the inputs rests tell a limb's own flip.
     """
     rates = _motion_rates(block, screws)
     if not parts and rates.shape[1] + len(block.spins) >= len(block.columns):
@@ -247,6 +248,10 @@ def _along_motions(block: ClosingBlock, screws: ScrewColumns, *, parts: bool) ->
         own = replace(block, spins=along.block.spins if along else ())
         for row in _directions(rates):
             yield _sign(own, screws, rates @ np.linalg.svd(row[None])[2][1:].T)
+        for index in inputs:
+            still = _motion_rates(block, screws, index)
+            if 0 < still.shape[1] < rates.shape[1]:
+                yield _sign(own, screws, still)
 
 
 def _along_slides(block: ClosingBlock, screws: ScrewColumns) -> BlockSign | None:
@@ -277,12 +282,12 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
     rates = np.eye(len(block.columns)) if rates is None else rates
     if not rates.shape[1] or (screws.few is not screws and _sign(block, screws.few, rates) is None):
         return None  # what does not span one space in a few assemblies does not in all
-    links = tuple(_steadiest(block, number, screws) for number in range(len(block.loops)))
+    links = tuple(steadiest_link(block, number, screws) for number in range(len(block.loops)))
     matrices = block.derivative(screws, links) @ rates
     left, sizes, _ = np.linalg.svd(matrices, full_matrices=False)
     ranks = np.sum(sizes > SMALL * sizes[:, :1], axis=1)
     rank = int(np.max(ranks))
-    basis = _span(left[ranks == rank][:, :, :rank])
+    basis = span(left[ranks == rank][:, :, :rank])
     spinning = rates.shape[1] - rank
     if basis.shape[1] != rank or spinning > len(block.spins):
         return None
@@ -295,35 +300,27 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
     return None
 
 
-def _motion_rates(block: ClosingBlock, screws: ScrewColumns) -> FloatArray:
+def _motion_rates(block: ClosingBlock, screws: ScrewColumns, still: int | None = None) -> FloatArray:
     """Basis (k, d) of the rates of a block's columns in all motions of the mechanism, single rods not spinning.
+
+    With `still` in those in which that column rests.
 
     Rods of a parallelogram spin together: without that its motions may span less than its rods' turns, by an accident
     of the others, and a border of two spins of three would vanish where the third is across it.
     """
-    motions = screws.motions[:, list(block.columns)]
+    motions = screws.motions if still is None else _resting(screws.motions, still)
+    motions = motions[:, list(block.columns)]
     if not block.spins:
-        return _span(motions)
+        return span(motions)
     spins = np.stack([spin_rates(spin, screws)[:, list(block.columns)] for spin in block.spins], axis=-1)
     motions = motions - spins @ (np.linalg.pinv(spins) @ motions)
     size = float(np.max(np.linalg.norm(motions, axis=1), initial=0.0))
     groups = [{*group.joints} for group in screws.record.generalised.values()]
     pairs = [[k for k, spin in enumerate(block.spins) if {spin.first, spin.second} <= group] for group in groups]
     together = [size * np.sum(spins[:, :, pair], axis=2, keepdims=True) for pair in pairs if len(pair) > 1]
-    return _span(np.concatenate([motions, *together], axis=2))
+    return span(np.concatenate([motions, *together], axis=2))
 
 
-def _steadiest(block: ClosingBlock, number: int, screws: ScrewColumns) -> str:
-    """The link from which the screws of a loop span the smallest space over all assemblies; the base before others."""
-    record, loop = screws.record, block.loops[number]
-    joints = [record.joints[name] for name in loop if name in record.joints]
-    links = dict.fromkeys([record.base, *(link for joint in joints for link in (joint.parent, joint.child))])
-    own = [column for column, owner in zip(block.columns, block.owners, strict=True) if owner in loop]
-    spans = {link: _span(screws.seen_from(link)[:, :, own]).shape[1] for link in links}
-    return min(spans, key=lambda link: spans[link])
-
-
-def _span(matrices: FloatArray) -> FloatArray:
-    """Orthonormal basis (k, r) of what all columns of matrices (N, k, c) span together."""
-    weights, basis = np.linalg.eigh(np.einsum("nij,nkj->ik", matrices, matrices))
-    return np.asarray(basis[:, weights > SAME_SPACE**2 * np.max(weights, initial=0.0)])
+def _resting(motions: FloatArray, column: int) -> FloatArray:
+    """Of motions (N, c, F) those (N, c, F - 1) in which a column rests."""
+    return np.asarray(motions @ np.swapaxes(np.linalg.svd(motions[:, column, None])[2][:, 1:], -1, -2))
