@@ -21,6 +21,7 @@ from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import InputsBy, Topology
 from assur.topology.met_modes import DRAWS, met_modes
 from assur.topology.notation import parse_chains
+from assur.topology.routes import told_point
 from assur.topology.screws.configurations import ImmobileError
 from assur.topology.screws.placing import place
 from assur.topology.screws.recognition import recognised
@@ -152,7 +153,8 @@ def _of_chains(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     """Of some dimensions with which the chains move as others do; else of some with which their motion is proved."""
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     inputs_by: InputsBy = "given" if actuate else "first joints"
-    placed = [place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)]
+    at = told_point(chains, held=mode == "translation")
+    placed = [place(chains, seed=seed, actuated=names, at=at) for seed in range(PLACINGS)]
     for seed, built in enumerate(placed):
         try:
             found = analyse(built, chains, mode=mode, inputs_by=inputs_by)

@@ -16,10 +16,12 @@ from assur.topology.facts import Known
 from assur.topology.screws.configurations import configurations
 from assur.topology.screws.limb_linkage import limb_linkage, limb_values
 from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.shared_points import common_end
 from assur.topology.screws.twists import dimensions, edges, motion_space
 from assur.topology.symbolic.derivation import PocDerivation
 from assur.topology.symbolic.intersection import parallel, xi_of_next
 from assur.topology.symbolic.motion import Mode, Motion, motion_of
+from assur.topology.symbolic.orientations import EVERY, Orientations
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.union import serial
 
@@ -32,7 +34,7 @@ class Rules:
 
     Attributes:
         free: the limbs' motions by themselves (in translation mode where that was asked for).
-        still: the same in translation mode, where the platform does not turn; else as `free`.
+        still: the same, held to the orientations that the platform takes.
         platform: the platform's motion.
     """
 
@@ -58,8 +60,20 @@ def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str
     if chains is None:
         return Rules((), (), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
     free = tuple(_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1))
-    quiet = free if held or not still else tuple(_motion(chain, "translation", n) for n, chain in enumerate(chains, 1))
-    return Rules(free, quiet, _platform(free, "translation" if held else "free", at))
+    platform = _platform(free, "translation" if held else "free", at)
+    if still and not held:
+        return Rules(free, tuple(_motion(chain, "translation", n) for n, chain in enumerate(chains, 1)), platform)
+    taken = platform.orientations if isinstance(platform, Motion) and len(chains) > 1 and not held else EVERY
+    return Rules(free, tuple(_held(limb, taken) for limb in free), platform)
+
+
+def _held(limb: Motion | Refusal, taken: Orientations) -> Motion | Refusal:
+    """A limb whose end link takes only some orientations, where that leaves it another number of elements."""
+    if isinstance(limb, Refusal) or limb.limb is None or taken == EVERY:
+        return limb
+    kept = motion_of(limb.limb, taken)
+    same = isinstance(kept, Motion) and (kept.poc.t, kept.poc.r, kept.dim) == (limb.poc.t, limb.poc.r, limb.dim)
+    return limb if same else kept
 
 
 def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:
@@ -72,6 +86,13 @@ def _platform(limbs: Sequence[Motion | Refusal], mode: Mode, at: str) -> Motion 
         if isinstance(limb, Refusal):
             return Refusal(f"limb {number}: {limb.reason}")
     return motions[0] if len(motions) == 1 else parallel(motions, mode, at=at)
+
+
+def told_point(chains: Sequence[Chain], *, held: bool) -> str:
+    """The label of the limbs' common end, or empty for a general point where the rules tell only how that one moves."""
+    label = common_end(chains)
+    at_label, anywhere = (by_rules(chains, still=False, held=held, at=at).platform for at in (label, ""))
+    return "" if isinstance(at_label, Refusal) and isinstance(anywhere, Motion) else label
 
 
 def both(what: str, rules: Motion | Refusal, space: FloatArray) -> Known:
@@ -139,7 +160,7 @@ def as_the_limbs_are(rules: Rules, limbs: Sequence[KnownLimb]) -> Rules:
     motions: the limbs R[z]@A P[x] R[z]@A stand with their axes on one line, and three of them never leave that.
     """
     special = [number for number, limb in enumerate(limbs, 1) if limb.motion is None]
-    if not special or isinstance(rules.platform, Refusal):
+    if not special or isinstance(rules.platform, Refusal) or rules.platform.from_home:
         return rules
     reason = f"the mechanism keeps limb {special[0]} in a special position, where it has other motions than by itself"
     return dataclasses.replace(rules, platform=Refusal(reason))

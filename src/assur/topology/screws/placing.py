@@ -37,7 +37,9 @@ _AT_NEAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": UNIVERSAL}
 _AT_FAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": SPHERICAL}
 
 
-def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | None = None) -> Linkage:
+def place(
+    chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | None = None, at: str | None = None
+) -> Linkage:
     """A linkage of one chain, or of all limbs side by side between base and platform.
 
     Joints stand in a box of size 2 at random; the same seed gives the same linkage. Joints keep their names if these
@@ -53,6 +55,7 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
         seed: of the random positions.
         actuated: names of actuated joints and parallelograms; of a C its translation is meant, of a U its first
             rotation, of a parallelogram its first hinge.
+        at: label of the point of the platform where O' of several limbs is, empty for a general one; default as above.
 
     Errors:
         UnknownNameError: an actuated joint that does not exist. UsageError: no chain, an empty one, or an actuated S.
@@ -69,7 +72,7 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
     building = _Building(rng, iter(names), len(chains) == 1, labels=tied_points(chains, names, rng))
     tips = [building.limb(number, chain) for number, chain in enumerate(chains, 1)]
     somewhere = building.somewhere()
-    point = tips[0] if len(chains) == 1 else building.labels.get(common_end(chains))
+    point = tips[0] if len(chains) == 1 else building.labels.get(common_end(chains) if at is None else at)
     inputs = tuple(_input(name, building) for name in actuated or ())
     return Linkage(building.joints, BASE, PLATFORM, somewhere if point is None else point, building.groups, inputs)
 

@@ -56,6 +56,7 @@ class Structure:
         axes: the rotations of those orientations, in order from the base.
         rods: lines along the rods of parallelograms, which turn nothing.
         end: the point O' on the last axis (or its centre); GENERAL where the last axis does not keep it.
+        ends: labels of points of the last axis, and the points.
     """
 
     items: tuple[Item, ...]
@@ -63,6 +64,7 @@ class Structure:
     end: int = GENERAL
     beyond: tuple[Item, ...] = ()
     axes: tuple[Vector, ...] = ()
+    ends: tuple[tuple[str, int], ...] = ()
 
     @property
     def blocks(self) -> tuple[Block, ...]:
@@ -116,7 +118,7 @@ def structure(chain: Sequence[Elementary]) -> Structure:
             items += [*([opened] if opened else []), *after]
             opened, after = Block(item.direction, (line,)), []
     items += [*([opened] if opened else []), *after]
-    return Structure(tuple(items), tuple(rods), meets.end)
+    return Structure(tuple(items), tuple(rods), meets.end, ends=meets.ends)
 
 
 def mirrored(chain: Structure) -> Structure:

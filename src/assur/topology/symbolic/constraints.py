@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, parallel
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.orientations import Orientations
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spans import NOTHING, Span
+from assur.topology.symbolic.subgroups import axes_through
 
 
 @dataclass(frozen=True)
@@ -102,13 +104,27 @@ def _centre(limb: Motion) -> str:
 
 
 def _common_labels(limb: Motion, before: Sequence[Motion]) -> bool:
-    return any(_labels(limb) & _labels(other) for other in before)
+    return any(_share(limb, other) for other in before)
 
 
 def share_a_point(limbs: Sequence[Motion]) -> bool:
-    """Whether axes of two limbs run through one labelled point."""
+    """Whether axes of two limbs run through one labelled point, and that ties what they resist."""
     return any(_common_labels(limb, limbs[:index]) for index, limb in enumerate(limbs))
 
 
-def _labels(limb: Motion) -> frozenset[str]:
-    return limb.limb.labels if limb.limb else frozenset()
+def _share(limb: Motion, other: Motion) -> bool:
+    """Whether two limbs turn about one line, or have several axes each through one point, where forces then meet.
+
+    One axis of each through a point, and not the same one, leaves it open where the forces are that meet them.
+    """
+    if limb.limb is None or other.limb is None:
+        return False
+    for label in limb.limb.labels & other.limb.labels:
+        first, second = (axes_through(label, motion.limb.chain) for motion in (limb, other) if motion.limb)
+        if min(len(first), len(second)) > 1 or any(_may_be_one(*pair) for pair in product(first, second)):
+            return True
+    return False
+
+
+def _may_be_one(first: Vector | None, second: Vector | None) -> bool:
+    return first is None or second is None or parallel(first, second)

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from assur.errors import UsageError
-from assur.topology.symbolic.lasting import why_it_does_not_last
+from assur.topology.poc import Mark, PocSet
+from assur.topology.symbolic.lasting import as_it_lasts
 from assur.topology.symbolic.limb_steps import limb_derivation
-from assur.topology.symbolic.motion import Mode, Motion, check_mode
-from assur.topology.symbolic.operation_modes import as_written, unturned
+from assur.topology.symbolic.marks import MOVING
+from assur.topology.symbolic.motion import Limb, Mode, Motion, check_mode
+from assur.topology.symbolic.operation_modes import HeldLimbs, as_written, unturned
+from assur.topology.symbolic.orientations import EVERY, Orientations
 from assur.topology.symbolic.platform_set import is_helical, platform_set
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.subgroups import that_hold_back
+from assur.topology.symbolic.spans import ALL, NOTHING
+from assur.topology.symbolic.subgroups import share_a_sphere, that_hold_back
 
 
 def parallel(
@@ -46,26 +51,46 @@ def parallel(
     limbs = [motion.limb for motion in motions if motion.limb is not None]
     if len(limbs) < len(motions):
         return Refusal("the pitch of a helical joint couples a rotation and a translation")
-    holding = that_hold_back(limbs)
-    assembly = unturned(holding) if mode == "translation" else as_written(holding)
+    carried = (_about_a_point(motions, at) if mode == "free" else None) or _held(that_hold_back(limbs), mode, at)
+    if isinstance(carried, Refusal):
+        return carried
+    return replace(
+        carried,
+        conditions=tuple(dict.fromkeys(condition for limb in limbs for condition in limb.conditions)),
+        derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode, at=at), name, at),
+    )
+
+
+def _held(limbs: Sequence[Limb], mode: Mode, at: str) -> Motion | Refusal:
+    """The motion of a platform by what its limbs resist, held to the orientations that it takes."""
+    assembly = unturned(limbs) if mode == "translation" else as_written(limbs)
+    if mode == "free" and isinstance(assembly, HeldLimbs):
+        assembly = as_it_lasts(assembly)
     if isinstance(assembly, Refusal):
         return assembly
-    refusal = why_it_does_not_last(assembly) if mode == "free" else None
-    if refusal is not None:
-        return refusal
+    if assembly.from_platform and at:
+        return Refusal("directions fixed in the platform decide how its point O' moves")
     poc = platform_set(assembly.limbs, assembly.resisted, at)
     if isinstance(poc, Refusal):
         return poc
-    return Motion(
-        translations=assembly.resisted.forces.complement,
-        rotations=assembly.turned,
-        orientations=assembly.taken,
-        freedoms=poc.dim,
-        given=poc,
-        conditions=tuple(dict.fromkeys(condition for limb in limbs for condition in limb.conditions)),
-        helical=is_helical(assembly.limbs, assembly.resisted),
-        derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode, at=at), name, at),
-    )
+    moved, turned, taken = assembly.resisted.forces.complement, assembly.turned, assembly.taken
+    if assembly.from_platform:
+        moved, turned, taken = moved.turned(None), turned.turned(None), Orientations(taken.dim)
+        moving = [Mark() if count in (0, 3) else MOVING for count in (poc.t, poc.r)]
+        poc = replace(poc, t_mark=moving[0], r_mark=moving[1])
+    helical = is_helical(assembly.limbs, assembly.resisted)
+    return Motion(moved, turned, taken, freedoms=poc.dim, given=poc, helical=helical)
+
+
+def _about_a_point(motions: Sequence[Motion], at: str) -> Motion | None:
+    """The motion of a platform that limbs let turn about a point that they share, and do nothing else."""
+    limbs = [motion.limb for motion in motions if motion.limb is not None and motion.dim < 6]
+    common = frozenset.intersection(*(limb.labels for limb in limbs)) if limbs else frozenset[str]()
+    centre = next((label for label in sorted(common) if share_a_sphere(limbs, label)), "")
+    if not centre:
+        return None
+    poc = PocSet(0, 3, 3) if at == centre else PocSet(2, 3, 3, MOVING)
+    return Motion(NOTHING, ALL, EVERY, freedoms=3, given=poc, from_home=True)
 
 
 def xi_of_next(before: Motion, limb: Motion, after: Motion) -> int:

@@ -2,28 +2,52 @@
 
 Links inside different limbs turn independently, except where they are fixed in the base, fixed in the platform, or
 turned about the same axes to the same orientation. The first is what the rules assume; the others are checked here.
+Where nothing that limbs resist is fixed in the base, what is fixed in the platform decides: the base moves against the
+platform as the platform against the base, with as many elements at a general point.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 from assur.topology.directions import parallel
 from assur.topology.symbolic.motion import Motion, seen_from_end
-from assur.topology.symbolic.operation_modes import HeldLimbs, assembled
+from assur.topology.symbolic.operation_modes import HeldLimbs, as_written, assembled
 from assur.topology.symbolic.orientations import Orientations, turn_alike
 from assur.topology.symbolic.refusals import Refusal
 
 
-def why_it_does_not_last(assembly: HeldLimbs) -> Refusal | None:
-    """Why what the platform does as written is not what it goes on to do, where that is so."""
+def as_it_lasts(assembly: HeldLimbs) -> HeldLimbs | Refusal:
+    """What the platform does as written, as the base sees it or the platform, or why it does not go on to do that."""
+    refusal = _not_alone(assembly)
+    if refusal is not None:
+        return refusal
+    refusal = _not_of_both(assembly)
+    spans = [span for limb in assembly.limbs for span in (limb.forces, limb.couples)]
+    if refusal is None or any(span.fixed or span.plane is not None for span in spans):
+        return refusal or assembly
+    seen = as_written([seen_from_end(limb.limb) for limb in assembly.limbs if limb.limb])
+    if isinstance(seen, Refusal):
+        return refusal
+    return refusal if _not_alone(seen) else replace(seen, from_platform=True)
+
+
+def _not_alone(assembly: HeldLimbs) -> Refusal | None:
+    """Why it does not last as one of the two sees it."""
     if assembly.turned.dim > assembly.taken.dim and not assembly.has_rods:
         return Refusal("the limbs leave the platform a rotation that does not last as it turns")
     turning = [limb.structure for limb in assembly.limbs if limb.structure and limb.translations.turning]
+    if assembly.taken.dim and any(turn_alike(*pair) for pair in combinations(turning, 2)):
+        return Refusal("translations of several limbs turn alike with the platform")
+    return None
+
+
+def _not_of_both(assembly: HeldLimbs) -> Refusal | None:
+    """Why base and platform do not see the same."""
+    turning = [limb for limb in assembly.limbs if limb.structure and limb.translations.turning]
     if not assembly.taken.dim or len(turning) < 2:
         return None
-    if any(turn_alike(*pair) for pair in combinations(turning, 2)):
-        return Refusal("translations of several limbs turn alike with the platform")
     seen = _from_the_platform(assembly)
     if isinstance(seen, Refusal):
         return seen

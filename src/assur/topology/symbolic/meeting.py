@@ -39,10 +39,12 @@ class Meeting:
     Attributes:
         lines: of its turns, in order; coaxial turns have the same one.
         end: the point O' on the last axis or at its joint's centre, GENERAL where the last axis does not keep it.
+        ends: labels of the points that the last axis keeps, and the points.
     """
 
     lines: tuple[Line, ...]
     end: int
+    ends: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass
@@ -84,8 +86,9 @@ def meeting(chain: Sequence[Elementary]) -> Meeting:
         else:
             _turn(walk, item)
             indices.append(walk.line)
+    ends = tuple(walk.labelled.items()) if not walk.moved.dim else ()
     end = _end(walk)
-    return Meeting(tuple(walk.lines[index] for index in indices), end)
+    return Meeting(tuple(walk.lines[index] for index in indices), end, ends)
 
 
 def _turn(walk: _Walk, turn: Turn) -> None:

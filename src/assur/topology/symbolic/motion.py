@@ -80,6 +80,7 @@ class Motion:
         structure: that chain, held to the orientations.
         given: the POC set where no chain makes it: of a platform, or of a helical joint alone.
         helical: whether a rotation advances along its axis.
+        from_home: whether home alone proves it, whatever the limbs do by themselves.
         derive: gives the derivation.
     """
 
@@ -92,6 +93,7 @@ class Motion:
     structure: Structure | None = None
     given: PocSet = AT_REST
     helical: bool = False
+    from_home: bool = False
     derive: Callable[[], PocDerivation] | None = field(default=None, repr=False, compare=False)
 
     @cached_property
@@ -140,8 +142,9 @@ class Motion:
         return label if label and not label.startswith("#") and self.poc.t == self.translations.dim else ""
 
     def seen_at(self, point: str) -> PocSet:
-        """The POC set at a labelled point of the platform: where the limb ends, or else a general one."""
-        return self.poc if point and self.turns_about == point else self.restated
+        """The POC set at a labelled point of the platform: on the limb's last axis, or else a general one."""
+        places = dict(self.structure.ends) if self.structure else {}
+        return poc_set(self.structure, places[point]) if self.structure and point in places else self.restated
 
     def pure_along(self, axis: Vector) -> bool:
         """Whether the force along an axis that it resists needs no couple about that axis.

@@ -36,11 +36,15 @@ from assur.topology.symbolic.spans import Span
 
 @dataclass(frozen=True)
 class HeldLimbs:
-    """Limbs held to the orientations of the platform that they carry, and what they resist."""
+    """Limbs held to the orientations of the platform that they carry, and what they resist.
+
+    `from_platform` says that this is as the platform sees them: its directions are not fixed in the base.
+    """
 
     limbs: tuple[Motion, ...]
     taken: Orientations
     resisted: Resisted
+    from_platform: bool = False
 
     @property
     def turned(self) -> Span:

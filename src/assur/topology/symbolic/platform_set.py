@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from assur.topology.directions import parallel
 from assur.topology.poc import Mark, PocSet
 from assur.topology.symbolic.constraints import Resisted, have_common_end, resists_purely, share_a_point
 from assur.topology.symbolic.marks import MOVING, rotation_mark, translation_mark
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.spans import Span, plane_across
+from assur.topology.symbolic.spans import ALL, NOTHING, Span, plane_across
+from assur.topology.symbolic.subgroups import word
 
 
 def platform_set(limbs: Sequence[Motion], resisted: Resisted, at: str = "") -> PocSet | Refusal:
@@ -43,11 +45,41 @@ def platform_set(limbs: Sequence[Motion], resisted: Resisted, at: str = "") -> P
 
 def _at_common_end(resisting: Sequence[Motion], resisted: Resisted, at: str) -> PocSet | Refusal:
     """The POC set at the point about which all limbs can turn."""
-    if any(limb.turns_about != at for limb in resisting):
-        return Refusal("O' lies on the last axes of limbs that cannot make all their rotations about it")
     chains = [limb.structure for limb in resisting if limb.structure is not None]
     moved, turned = resisted.forces.complement, resisted.couples.complement
+    if any(limb.turns_about != at for limb in resisting):
+        t, most = (resisted.dim - _rotations_about(resisting, at, most=most).dim for most in (True, False))
+        if t < most:
+            return Refusal("O' lies on the last axes of limbs that can make several rotations about it")
+        moved = moved if t == moved.dim else ALL if t == 3 else Span((), t)
     return PocSet(moved.dim, turned.dim, resisted.dim, translation_mark(moved, *chains), rotation_mark(turned, *chains))
+
+
+def _rotations_about(resisting: Sequence[Motion], at: str, *, most: bool) -> Span:
+    """Rotations that all limbs can make about a point of the platform, in its directions: at most, or in general."""
+    common = ALL
+    for limb in resisting:
+        count = limb.dim - limb.seen_at(at).t
+        known = _turning_about(limb, at)
+        known = known if known.dim == count else Span((), count)
+        common = common.meet(ALL if count == 3 or (most and known.turning) else known)
+    return common
+
+
+def _turning_about(limb: Motion, at: str) -> Span:
+    """The rotations about a point of the end link, in its directions, that a limb's subgroups have."""
+    turning = [block.direction for block in limb.structure.blocks if block.net] if limb.structure else []
+    span = NOTHING
+    for letter in (word(limb.limb.chain) or ()) if limb.limb else ():
+        if letter.ball:
+            span = ALL if at in letter.points else span.turned(None)
+        if letter.axis is None:
+            continue
+        if any(parallel(axis, letter.axis) for axis in turning):
+            span = span.turned(letter.axis)
+        if at in letter.points or not letter.has_place:
+            span = span.with_direction(letter.axis)
+    return span
 
 
 def _arm(limbs: Sequence[Motion], numbers: tuple[int, int, int]) -> Mark:

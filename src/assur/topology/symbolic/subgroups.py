@@ -12,13 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from assur.topology.directions import Vector, parallel
+from assur.topology.directions import Vector, parallel, span
 from assur.topology.symbolic.blocks import structure
 from assur.topology.symbolic.elementary import Elementary, Turn
 from assur.topology.symbolic.motion import Limb, motion_at_home, motion_of
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spaces import translations
-from assur.topology.symbolic.spans import NOTHING, Span
+from assur.topology.symbolic.spans import ALL, NOTHING, Span
 
 
 @dataclass(frozen=True)
@@ -105,6 +105,47 @@ def that_hold_back(limbs: Sequence[Limb]) -> tuple[Limb, ...]:
         if letters is not None and any(within(other, letters) for other in others if other is not None):
             kept.remove(index)
     return tuple(limbs[index] for index in kept)
+
+
+def axes_through(label: str, chain: Sequence[Elementary]) -> list[Vector | None]:
+    """Axes through a point, without those of groups that have no place; None for every axis of a ball joint.
+
+    >>> z = (0.0, 0.0, 1.0)
+    >>> turns = [Turn(z, "R1", "A"), Turn(z, "R2"), Turn(z, "R3")]
+    >>> axes_through("A", turns[:2]), axes_through("A", turns)
+    ([(0.0, 0.0, 1.0)], [])
+    """
+    letters = word(chain)
+    if letters is None:
+        return [turn.direction for turn in chain if isinstance(turn, Turn) and label in turn.labels]
+    return [letter.axis for letter in letters if letter.has_place and label in letter.points]
+
+
+def share_a_sphere(limbs: Sequence[Limb], centre: str) -> bool:
+    """Whether limbs let a link turn about a point as a sphere does, and in no other way.
+
+    Each can do so that has rotations about three axes through the point, not in one plane: about lines through it, or
+    in a group without a place. All that it resists at home are then forces through the point, across its slides. Where
+    its limbs' slides have no direction in common, the link has three freedoms at home, and as many it keeps.
+    """
+    words = [word(limb.chain) for limb in limbs]
+    if any(letters is None or not _turns_about(letters, centre) for letters in words):
+        return False
+    free = ALL
+    for letters in words:
+        slides = NOTHING
+        for letter in letters or ():
+            slides = slides.with_span(letter.slides)
+        free = free.meet(slides)
+    return not free.dim
+
+
+def _turns_about(letters: Sequence[Subgroup], centre: str) -> bool:
+    """Whether three independent rotations about a point are among subgroups that move it by their slides alone."""
+    if any(letter.has_place and centre not in letter.points for letter in letters):
+        return False
+    axes = [letter.axis for letter in letters if letter.axis is not None]
+    return any(letter.ball for letter in letters) or len(span(axes)) == 3
 
 
 def _regular(limb: Limb) -> bool:
