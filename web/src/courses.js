@@ -13,11 +13,9 @@ const CLEAR = 1.25; // a course that is so much larger can be followed too
 const ROUGH = 20; // places at which that is asked
 const SIZES = 5; // that are tried, each a round number
 
-/**
- * @typedef {{name: (size: number) => string, amount: (size: number) => string, kind: "pose"|"inputs",
- *   sizes: number[], ways: number, at: (t: number, size: number, way: number) => number[]}} Course
- * closed, t from 0 to 1; it starts where the mechanism stands, `ways` are the sides to which it may lie, sizes fall
- */
+/** @typedef {{name: (size: number) => string, amount: (size: number) => string, kind: "pose"|"inputs",
+ * sizes: number[], ways: number, at: (t: number, size: number, way: number) => number[]}} Course
+ * closed, t from 0 to 1; it starts where the mechanism stands, `ways` are the sides to which it may lie, sizes fall */
 
 /** To and fro over 1 from where it starts: to both sides, or to one of them. */
 const SWINGS = [

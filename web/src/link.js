@@ -1,7 +1,5 @@
 /** Everything that is shown, in the address's hash: camera, pose, mode, tab, course and check boxes, so that a link restores it. */
 
-import { minus } from "./dom.js";
-
 const REST = 350;
 const FURTHEST = 50; // sizes of the mechanism that the camera's target may be away
 const MODE = /^[\w+~. -]{1,200}$/;
@@ -49,11 +47,8 @@ function cameraOf(text) {
   return sound && Math.hypot(...found.slice(3)) < FURTHEST ? found : null;
 }
 
-/**
- * What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. `number` is
- * that of a mode, as addresses bore it when modes had no names. Joint values are counted; of tabs are names known, of
- * courses and layers how many there are.
- */
+/** What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. Joint values
+ * are counted; of tabs are names known, of courses and layers how many there are. */
 export function readHash(hash, { count, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   let damaged = false;
@@ -63,7 +58,7 @@ export function readHash(hash, { count, tabs, courses, layers }) {
     return found;
   };
   const flag = (text) => (["0", "1"].includes(text) ? text === "1" : null);
-  const found = {
+  return {
     mode: read("mode", (text) => (MODE.test(text) ? text : null)),
     values: read("joints", (text) => unpacked(text, count)),
     camera: read("view", cameraOf),
@@ -73,15 +68,8 @@ export function readHash(hash, { count, tabs, courses, layers }) {
       layers: read("layers", (text) => several(text, layers)),
       ...Object.fromEntries(FLAGS.map((name) => [name, read(name, flag)])),
     },
+    damaged,
   };
-  const number = /^\d+$/.test(found.mode ?? "") ? found.mode : null;
-  return { ...found, ...(number && { mode: null }), number, damaged };
-}
-
-/** What is said of an address that numbers its mode: the name of the one in which its joint values stand. */
-function renamed(number, { mode }) {
-  const name = mode ? `the one that is shown is ${minus(mode)} now` : "the one that is shown has none";
-  return `this link calls an assembly mode by the number ${number}; modes have names: ${name}`;
 }
 
 /**
@@ -97,7 +85,6 @@ export function linked(mechanism, stage, choices, known, say) {
     const foreign = found.values && !mechanism.restore(found.values, found.mode);
     if (found.camera) stage.view.set(found.camera);
     if (found.damaged || foreign) say("this link is damaged, or another page's: only what is understood is shown");
-    else if (found.number) say(renamed(found.number, mechanism));
   };
   const address = () => {
     const chosen = Object.fromEntries(Object.entries(choices).map(([name, { read }]) => [name, read()]));

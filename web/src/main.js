@@ -57,10 +57,9 @@ function paint() {
   stage.setDark(darkness.matches);
   letters.paint(darkness.matches);
   marker.paint(darkness.matches);
-  marker.show(mechanism.reason, mechanism.values);
   current.tint.color.set(darkness.matches ? "#dde2e9" : "#ffffff");
+  placeAll();
 }
-paint();
 
 function placeAll() {
   current.place(mechanism.values);
@@ -69,22 +68,18 @@ function placeAll() {
   point.position.set(...configurationAt(model, mechanism.values).platform.origin);
   stage.moved();
 }
-placeAll();
+paint();
 stage.frame(current.group, scene.extent);
 
 const layers = scene.layers.map((layer) => {
   const object = layerOf(layer);
   object.visible = Boolean(layer.visible);
   stage.add(object);
-  return check(
-    layer.label.replaceAll("^2", "²"),
-    object.visible,
-    (shown) => {
-      object.visible = shown;
-      stage.keep([object], shown);
-    },
-    layer.colour,
-  );
+  const show = (shown) => {
+    object.visible = shown;
+    stage.keep([object], shown);
+  };
+  return check(layer.label.replaceAll("^2", "²"), object.visible, show, layer.colour);
 });
 const ghosts = new Ghosts(mechanism, geometries, stage, current.group);
 const player = new Player(mechanism, stage);

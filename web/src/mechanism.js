@@ -60,11 +60,8 @@ export class Mechanism {
     this.assembly = found.map((item) => ({ ...item, reached: true, fresh: true }));
   }
 
-  /**
-   * Takes the assembly modes of a working mode whose first one was followed to where the mechanism stands, and finds
-   * the current one: the first if no parallel singularity was on the way, else the one whose inputs lead here; -1 where
-   * none does.
-   */
+  /** Takes the assembly modes of a working mode whose first one was followed to where the mechanism stands, and finds
+   * the current one: the first if no parallel singularity was on the way, else the one whose inputs lead here, or none. */
   settle(work, crossed, hint = null) {
     this.list(work);
     const said = (k) => Number(this.assembly[k].label !== hint);
@@ -101,11 +98,6 @@ export class Mechanism {
     Object.assign(this, { status, reason });
   }
 
-  /** Says that a mode is not to be had, where no joint is to blame. */
-  refuse(text) {
-    this.note({ status: "stopped", reason: { kind: "gap", text, joint: "", amount: 0 } });
-  }
-
   /** The name of the assembly mode in which it stands; empty where none of those of home's pose leads there. */
   get mode() {
     return this.assembly[this.branch]?.label ?? "";
@@ -130,11 +122,8 @@ export class Mechanism {
     return this.moved(toPose(this.model, this.values, numbers("toPose", pose, this.model.pose), this));
   }
 
-  /**
-   * Straight to joint values that are nearly an assembly, as a link knows them; nothing where they are not.
-   * @param {string|null} hint the name of the assembly mode that it says, to be tried first
-   * @returns {boolean} whether they are
-   */
+  /** Straight to joint values that are nearly an assembly, as a link knows them, and whether they are.
+   * @param {string|null} hint the name of the assembly mode that it says, to be tried first */
   restore(values, hint) {
     const closed = closestApproach(this.model, values, [], null);
     if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return false;
@@ -162,15 +151,8 @@ export class Mechanism {
     if (!item) return this.state();
     const left = this.assembly[this.branch];
     if (left) Object.assign(left, { values: this.values, reached: true, fresh: false });
-    const found = this.brought(item);
-    if (found.status === "moved") {
-      this.values = found.values;
-      this.branch = index;
-      this.here = null;
-      this.note(found);
-    } else this.refuse(`${item.label} does not exist at these inputs`);
-    this.changed("mode");
-    return this.state();
+    const take = () => Object.assign(this, { branch: index, here: null });
+    return this.taken(this.brought(item), take, `${item.label} does not exist at these inputs`);
   }
 
   /** Goes to another working mode, at the same pose. */
@@ -178,12 +160,21 @@ export class Mechanism {
     const item = this.working[index];
     if (!item) return this.state();
     const found = toPose(this.model, item.values, this.pose, FREELY);
-    if (found.status === "moved") {
-      this.values = found.values;
+    const take = () => {
       this.here = index;
       this.settle(index, found.crossed);
+    };
+    const refusal = `${item.label} was not found here: the straight way from home’s pose ends before this one`;
+    return this.taken(found, take, refusal);
+  }
+
+  /** Goes where a mode was followed to, or says that it is not to be had, where no joint is to blame. */
+  taken(found, take, refusal) {
+    if (found.status === "moved") {
+      this.values = found.values;
+      take();
       this.note(found);
-    } else this.refuse(`${item.label} was not found here: the straight way from home’s pose ends before this one`);
+    } else this.note({ status: "stopped", reason: { kind: "gap", text: refusal, joint: "", amount: 0 } });
     this.changed("mode");
     return this.state();
   }
@@ -211,10 +202,8 @@ export class Mechanism {
     return [...points.flat(), ...platform.turn, ...counted];
   }
 
-  /**
-   * Index of the working mode in which the mechanism stands, -1 where none of the list is: the last one that was known
-   * if no serial singularity has been passed since, else that in which the way back to home's pose ends.
-   */
+  /** Index of the working mode in which the mechanism stands, -1 where none of the list is: the last one that was known
+   * if no serial singularity has been passed since, else that in which the way back to home's pose ends. */
   currentWork() {
     if (this.here === null) {
       const { index, sure } = this.workHere();
@@ -224,10 +213,8 @@ export class Mechanism {
     return this.here;
   }
 
-  /**
-   * That index by going back to home's pose, -1 also where there is no way (it is not sure then); and whether a parallel
-   * singularity is on the way.
-   */
+  /** That index by going back to home's pose, -1 also where there is no way (it is not sure then); and whether a parallel
+   * singularity is on the way. */
   workHere() {
     const home = poseOf(this.model, this.scene.home);
     const { status, values, crossed } = toPose(this.model, this.values, home, FREELY);

@@ -91,13 +91,15 @@ export function readout(mechanism) {
     else if (rows.factor) say("factor", false, "–");
     clearTimeout(timer);
     rows.distance.textContent = "…";
+    if (!details.open) return; // a search that nobody sees costs a phone's battery
     timer = setTimeout(() => {
       const found = new NearestSingular(mechanism.model, state.values);
       look(found, found.search(), PATIENCE);
     }, REST);
   };
+  const open = matchMedia("(min-width: 821px)").matches;
+  const details = el("details", { class: "numbers", open, ontoggle: show }, el("summary", {}, "Numbers"), list);
   mechanism.listen(show);
   show();
-  const open = matchMedia("(min-width: 821px)").matches;
-  return el("details", { class: "numbers", open }, el("summary", {}, "Numbers"), list);
+  return details;
 }

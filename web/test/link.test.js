@@ -16,7 +16,6 @@ test("an address brings back what it says", () => {
   ]) {
     const found = readHash(hashOf({ mode: "+-b~Pa1", values, camera, choices }), KNOWN);
     assert.equal(found.mode, "+-b~Pa1");
-    assert.equal(found.number, null);
     assert.deepEqual(found.camera, camera);
     assert.ok(apart(found.values, values) < 1e-2);
     assert.deepEqual(found.choices, choices);
@@ -34,10 +33,9 @@ test("an address that the page wrote is never called damaged", () => {
   }
 });
 
-test("an address of before there were names and choices says nothing of them, but bears a number", () => {
-  const found = readHash(`#mode=1&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
-  const kept = { mode: null, number: "1", damaged: false };
-  assert.deepEqual(found, { ...kept, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
+test("an address of before there were choices says nothing of them", () => {
+  const found = readHash(`#mode=%2B&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
+  assert.deepEqual(found, { mode: "+", damaged: false, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
 });
 
 test("an address that makes no sense changes nothing", () => {
@@ -54,7 +52,7 @@ test("an address that makes no sense changes nothing", () => {
   ])
     assert.deepEqual(
       readHash(hash, KNOWN),
-      { mode: null, number: null, values: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
+      { mode: null, values: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
       hash,
     );
 });

@@ -1,6 +1,7 @@
 """The names of modes tell solutions apart, and are kept along every regular path."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -170,22 +171,37 @@ OWN = {
 SHORT = ["six bars", "2T1R hybrid", "hybrid on a ball", "slides on cranks"]
 
 
+@pytest.fixture(scope="module")
+def drafts(tmp_path_factory):
+    """Drafts of one's own by name, their `[modes]` left out."""
+
+    @cache
+    def draft(name):
+        path = tmp_path_factory.mktemp("drafts") / "own.toml"
+        assert main(["new", str(path), *OWN[name]]) == 0
+        head, *tables = re.split(r"(?m)^(?=\[)", path.read_text())
+        path.write_text(head + "".join(table for table in tables if not table.startswith("[modes]")))
+        return load_record(str(path))
+
+    return draft
+
+
 @pytest.fixture
-def own(request, tmp_path):
-    """A draft of one's own, its `[modes]` left out."""
-    path = tmp_path / "own.toml"
-    assert main(["new", str(path), *OWN[request.param]]) == 0
-    head, *tables = re.split(r"(?m)^(?=\[)", path.read_text())
-    path.write_text(head + "".join(table for table in tables if not table.startswith("[modes]")))
-    return load_record(str(path))
+def own(request, drafts):
+    return drafts(request.param)
 
 
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
 @pytest.mark.parametrize(
-    "own", [*SHORT, *(pytest.param(name, marks=pytest.mark.deep) for name in OWN if name not in SHORT)], indirect=True
+    ("own", "walks", "steps"),
+    [
+        *((name, 6, 30) for name in SHORT),
+        *(pytest.param(name, 10, 60, marks=pytest.mark.deep) for name in OWN),
+    ],
+    indirect=["own"],
 )
-def test_a_name_of_a_draft_changes_at_singularities_alone(own, problem):
-    shares = changes(own, problem, lambda values: signs_of(own, problem, values), 10, 60)
+def test_a_name_of_a_draft_changes_at_singularities_alone(own, problem, walks, steps):
+    shares = changes(own, problem, lambda values: signs_of(own, problem, values), walks, steps)
     assert np.max(shares, initial=0.0) < CROSSED
 
 

@@ -1,5 +1,7 @@
 """Signs are found once for each file; what is damaged is found again."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -39,3 +41,14 @@ def test_what_is_damaged_is_found_again(record, damage):
     path.write_bytes(damage(path.read_bytes()))
     kept.kept_signs.cache_clear()
     assert np.array_equal(signs(record, kept.kept_signs(record, "inverse")), expected)
+
+
+def test_what_a_mechanism_is_called_decides_no_sign(record, tmp_path, monkeypatch):
+    path = tmp_path / "own.toml"
+    text = re.sub(r"(?m)^(name|title)(\s*)=.*$", r'\1\2= "own"', record.description.text, count=2)
+    path.write_text(text, encoding="utf-8")
+    own = load_record(path)
+    assert (own.name, own.title) == ("own", "own")
+    expected = signs(record, kept.kept_signs(record, "inverse"))
+    monkeypatch.setattr(kept, "distinguishing_signs", lambda *_: pytest.fail("found again"))
+    assert np.array_equal(signs(own, kept.kept_signs(own, "inverse")), expected)

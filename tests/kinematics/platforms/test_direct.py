@@ -44,7 +44,7 @@ ARRANGEMENTS = {
     "3-UPS/S": ("3-UPS/S",),
     "ball screws in legs": ("--limb", "U[x,y] {R[z]@O H[z]@O | P[z]} S", "--count", "3"),
 }
-QUICK = ("3-SPR", "2UPR-SPR", "ball screws in legs")
+QUICK = ("3-SPR", "2UPR-SPR")
 
 
 @pytest.fixture(

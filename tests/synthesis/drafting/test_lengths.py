@@ -35,7 +35,10 @@ def parameters(text, name=""):
     return record
 
 
-@pytest.mark.parametrize(("text", "name"), SAME)
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [pytest.param(*item, marks=pytest.mark.deep) if item[0] in ("H4", "3UPS&UP") else item for item in SAME],
+)
 def test_the_direct_problem_has_the_same_solutions_as_by_coordinates(tmp_path, monkeypatch, text, name):
     """The joints' values differ by those at home, which is the same place."""
     exact = lambda drawn, *, rounded, polar: by_lengths(drawn, rounded=False)  # noqa: E731, ARG005
@@ -91,7 +94,10 @@ def test_a_leg_s_stroke_is_its_length():
     assert stroke == pytest.approx(np.linalg.norm(platform - a.at), abs=1.0)
 
 
-@pytest.mark.parametrize(("text", "name"), [("3-RRR", "planar"), ("3-RPS", ""), ("Delta", ""), ("6-RUS", "")])
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("3-RRR", "planar"), ("3-RPS", ""), ("Delta", ""), pytest.param("6-RUS", "", marks=pytest.mark.deep)],
+)
 def test_home_closes_with_other_lengths(text, name):
     record = parameters(text, name)
     rng = np.random.default_rng(1)

@@ -131,7 +131,12 @@ def test_a_limb_that_is_there_to_hold_the_platform_is_not_driven_where_the_other
 
 
 @pytest.mark.parametrize(
-    "words", [("Orthoglide", ""), ("Tsai", ""), ("3-PRPaR", "upright rails"), ("3-RRPaR", "")], ids=" ".join
+    "words",
+    [
+        *(("Orthoglide", ""), ("3-RRPaR", "")),
+        *(pytest.param(words, marks=pytest.mark.deep) for words in (("Tsai", ""), ("3-PRPaR", "upright rails"))),
+    ],
+    ids=" ".join,
 )
 def test_limbs_with_parallelograms_keep_points_on_spheres_so_that_two_poses_belong_to_any_inputs(words):
     entry = arranged(*words)

@@ -17,10 +17,8 @@ export function linkGeometries(scene, model) {
 /** Plain and lit; its own colour dims all parts, as a dark page wants it. */
 const steel = () => new MeshStandardMaterial({ vertexColors: true, roughness: 0.45, metalness: 0 });
 
-/**
- * Translucent in one colour; only the side next to the reader is seen, because its depth is drawn first. What lies in
- * one place is drawn one behind the other: the mechanism itself, then its ghosts in their order.
- */
+/** Translucent in one colour; only the side next to the reader is seen, because its depth is drawn first. What lies in
+ * one place is drawn one behind the other: the mechanism itself, then its ghosts in their order. */
 function ghostMaterials(colour, order) {
   const behind = { polygonOffset: true, polygonOffsetFactor: order, polygonOffsetUnits: 4 * order };
   const depth = new MeshBasicMaterial({ colorWrite: false, ...behind });
@@ -28,10 +26,8 @@ function ghostMaterials(colour, order) {
   return { depth, tint: new MeshLambertMaterial({ ...look, ...behind }) };
 }
 
-/**
- * A body of meshes, one for each link; a ghost in one colour, so many places behind.
- * @returns {{group: Group, place: (values: number[]) => void, tint: object}} tint: its material
- */
+/** A body of meshes, one for each link; a ghost in one colour, so many places behind.
+ * @returns {{group: Group, place: (values: number[]) => void, tint: object}} tint: its material */
 export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
   const group = new Group();
   const meshes = new Map();

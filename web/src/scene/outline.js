@@ -31,11 +31,9 @@ function furthestOf(array, count, { x, y, z }) {
   return best;
 }
 
-/**
- * The points of all that is visible of an object, where it stands now.
+/** The points of all that is visible of an object, where it stands now.
  * @param {boolean} moving whether only of what moves
- * @returns {Vector3[]}
- */
+ * @returns {Vector3[]} */
 export function outline(object, moving = false) {
   object.updateWorldMatrix(true, true);
   const found = [];

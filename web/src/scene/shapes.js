@@ -40,22 +40,19 @@ function ball({ centre, radius }) {
   return new SphereGeometry(radius, 36, 24).toNonIndexed().translate(...centre);
 }
 
-/** The unit vector from one point to another, how far that is, and the point between; null where they are one. */
-function line(start, end, radius) {
+/** A solid from one point to another: of the unit vector, the length and the point between; a ball where they are one. */
+function along({ start, end, radius }, make) {
   const [a, b] = [vector(start), vector(end)];
   const way = b.clone().sub(a);
   const length = way.length();
-  return length > 1e-9 * radius ? { way: way.divideScalar(length), length, middle: a.lerp(b, 0.5) } : null;
+  return length > 1e-9 * radius ? make(way.divideScalar(length), length, a.lerp(b, 0.5)) : ball({ centre: start, radius });
 }
 
-function cylinder({ start, end, radius }) {
-  const found = line(start, end, radius);
-  if (!found) return ball({ centre: start, radius });
-  const { way: z, length, middle } = found;
-  const outline = new Shape();
-  outline.absarc(0, 0, radius, 0, 2 * Math.PI);
-  return placed(prism(outline, length, radius), ...across(z), z, middle);
-}
+const cylinder = (shape) =>
+  along(shape, (z, length, middle) => {
+    const outline = new Shape().absarc(0, 0, shape.radius, 0, 2 * Math.PI);
+    return placed(prism(outline, length, shape.radius), ...across(z), z, middle);
+  });
 
 function box({ centre, sides }) {
   const ways = sides.map(vector);
@@ -68,17 +65,14 @@ function box({ centre, sides }) {
   return placed(prism(outline, 2 * c, c), x, y, z, vector(centre));
 }
 
-function bar({ start, end, normal, radius, thickness }) {
-  const found = line(start, end, radius);
-  if (!found) return ball({ centre: start, radius });
-  const { way: x, length, middle } = found;
-  const z = vector(normal);
-  const outline = new Shape();
-  outline.absarc(length / 2, 0, radius, -Math.PI / 2, Math.PI / 2);
-  outline.absarc(-length / 2, 0, radius, Math.PI / 2, (3 * Math.PI) / 2);
-  const y = new Vector3().crossVectors(z, x);
-  return placed(prism(outline, thickness, thickness), x, y, z, middle);
-}
+const bar = (shape) =>
+  along(shape, (x, length, middle) => {
+    const { normal, radius, thickness } = shape;
+    const [z, quarter] = [vector(normal), Math.PI / 2];
+    const outline = new Shape().absarc(length / 2, 0, radius, -quarter, quarter);
+    outline.absarc(-length / 2, 0, radius, quarter, 3 * quarter);
+    return placed(prism(outline, thickness, thickness), x, new Vector3().crossVectors(z, x), z, middle);
+  });
 
 function slab({ outline, along }) {
   const corners = outline.map(vector);

@@ -28,11 +28,9 @@ export function largestGap(model, values) {
 /** @returns {number} largest gap at joint values, in length units */
 export const residual = (model, values) => largestGap(model, values).amount;
 
-/**
- * Gaps and their derivative, both in units of the model's length, unknowns scaled likewise.
+/** Gaps and their derivative, both in units of the model's length, unknowns scaled likewise.
  * @param {number[]|null} wanted a pose whose error is added as rows
- * @returns {{rows: number[], matrix: Float64Array[]}} matrix: one array of n per row
- */
+ * @returns {{rows: number[], matrix: Float64Array[]}} matrix: one array of n per row */
 export function closingSystem(model, values, wanted, weight = 1) {
   const at = configurationAt(model, values);
   const rows = gaps(model, at).map((value) => value / model.length);

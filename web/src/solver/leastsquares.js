@@ -2,14 +2,8 @@
 
 const DEPENDENT = 1e-9; // share of the largest pivot below which a row adds nothing
 
-/**
- * The x that makes |A x - b|^2 + (damping |x|)^2 least.
- *
- * With little damping this is the least-squares solution of smallest length: redundant rows and free motions do no harm.
- * @param {ArrayLike<number>[]} matrix m rows of n numbers
- * @param {ArrayLike<number>} right m numbers
- * @returns {Float64Array} n numbers
- */
+/** The x (n numbers) that makes |A x - b|^2 + (damping |x|)^2 least, of m rows. With little damping this is the least-squares
+ * solution of smallest length: redundant rows and free motions do no harm. */
 export function leastSquares(matrix, right, damping) {
   const m = matrix.length;
   const n = matrix[0].length;
@@ -54,11 +48,8 @@ function reflect(work, k, end) {
   column[k] = diagonal;
 }
 
-/**
- * An orthonormal basis of what a matrix takes to zero, by reflections of its transpose, the longest column first.
- * @param {ArrayLike<number>[]} matrix m rows of n numbers
- * @returns {Float64Array[]} n - rank vectors of n numbers
- */
+/** An orthonormal basis, n - rank vectors of n numbers, of what a matrix of m rows takes to zero: by reflections of its
+ * transpose, the longest column first. */
 export function nullSpace(matrix, n) {
   const m = matrix.length;
   // the rows of the matrix, then the rows of an identity, which become the basis
@@ -77,20 +68,13 @@ export function nullSpace(matrix, n) {
 }
 
 /** The i-th unit vector of n numbers. */
-function unit(n, i) {
-  const found = new Float64Array(n);
-  found[i] = 1;
-  return found;
-}
+const unit = (n, i) => Float64Array.from({ length: n }, (_, k) => Number(k === i));
 
 /** The n columns of a matrix. */
 const transposed = (matrix, n) => Array.from({ length: n }, (_, j) => new Float64Array(matrix.map((row) => row[j])));
 
-/**
- * Singular values, largest first, with the left and right vectors that belong to them (one-sided Jacobi).
- * @param {ArrayLike<number>[]} matrix m rows of n numbers
- * @returns {{values: number[], left: Float64Array[], right: Float64Array[]}} n of each; left ones of value 0 are 0
- */
+/** The n singular values of m rows, largest first, with their left and right vectors (one-sided Jacobi); left ones of value
+ * 0 are 0. */
 export function singular(matrix) {
   const n = matrix[0].length;
   const columns = transposed(matrix, n);

@@ -4,11 +4,9 @@ import { apply, cross, dot, fromVector, nearestTurn, norm } from "./rotation.js"
 
 const SPARE = 1e-9; // rad, or of the model's length: what rounding may make of a bound
 
-/**
- * @typedef {{kind: "stroke"|"limit", name: string, angle: boolean, low: number, high: number,
- *   value: (values: number[]) => number, counted: (values: number[]) => number}} Limit value: angles that are the same
- * after a whole turn are brought near to the middle of their bounds; counted: with their turns
- */
+/** @typedef {{kind: "stroke"|"limit", name: string, angle: boolean, low: number, high: number,
+ * value: (values: number[]) => number, counted: (values: number[]) => number}} Limit value: angles that are the same
+ * after a whole turn are brought near to the middle of their bounds; counted: with their turns */
 
 /** Every bound of the file. @returns {Limit[]} */
 export function limitsOf(model) {

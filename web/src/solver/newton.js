@@ -22,11 +22,9 @@ function stepped(model, values, held, system, damping) {
   return { values: moved, length: largest(step) };
 }
 
-/**
- * The assembly next to a start, or null where Newton's steps do not shrink at once: then the start is too far away.
+/** The assembly next to a start, or null where Newton's steps do not shrink at once: then the start is too far away.
  * @param {number[]} held indices of joint values that stand
- * @param {number[]|null} wanted the pose, or null
- */
+ * @param {number[]|null} wanted the pose, or null */
 export function nearAssembly(model, start, held, wanted) {
   let values = start;
   let before = Infinity;
@@ -44,11 +42,9 @@ export function nearAssembly(model, start, held, wanted) {
   return null;
 }
 
-/**
- * The closest approach to an assembly from a start that may be far away (Levenberg and Marquardt).
+/** The closest approach to an assembly from a start that may be far away (Levenberg and Marquardt).
  * @param {number} weight of the pose's rows: a large one leaves all gaps to the loops
- * @returns {number[]} joint values
- */
+ * @returns {number[]} joint values */
 export function closestApproach(model, start, held, wanted, weight = 1) {
   let values = start;
   let system = closingSystem(model, values, wanted, weight);

@@ -56,10 +56,8 @@ function motionsAt(model, values, names) {
 
 const sum = (items, term) => items.reduce((total, item, k) => total + term(item, k), 0);
 
-/**
- * What the motions say of singularities. Where Jp v = Jq qdot, their singular values are those of Jp and Jq of
- * orthonormal relations; s/c of the two are those of the map from the inputs' rates to the pose's.
- */
+/** What the motions say of singularities. Where Jp v = Jq qdot, their singular values are those of Jp and Jq of
+ * orthonormal relations; s/c of the two are those of the map from the inputs' rates to the pose's. */
 function measures({ pose, inputs }) {
   if (!inputs[0]?.length) return { condition: Infinity, parallel: 0, serial: 0 };
   const [held, moved] = [inputs, pose].map(sizes);

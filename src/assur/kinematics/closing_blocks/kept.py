@@ -1,12 +1,13 @@
 """Signs of modes, kept in the user's cache: plain data, by the mechanism's file, its dimensions and assur's version.
 
-Whole lines of comments do not count: they may say what was found.
+Whole lines of comments do not count, as they may say what was found; nor what the mechanism is called.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import lru_cache
@@ -30,6 +31,8 @@ from assur.version import VERSION
 KIND = "modes"
 LARGEST = 10_000_000
 """Bytes of an entry; a larger one is none of ours."""
+CALLED = re.compile(r"(name|title)\s*=")
+"""Lines before the first table that decide no sign."""
 
 
 @lru_cache(maxsize=64)
@@ -69,7 +72,8 @@ def kept_signs_at(record: MechanismRecord, problem: Problem, joints: NDArray[np.
 
 
 def _name(record: MechanismRecord, problem: Problem) -> str:
-    lines = record.description.text.splitlines() if record.description else []
+    head, *tables = re.split(r"(?m)^(?=\[)", record.description.text if record.description else "")
+    lines = [*(line for line in head.splitlines() if not CALLED.match(line)), *"".join(tables).splitlines()]
     text = "\n".join(line for line in lines if line.strip() and not line.startswith("#"))
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
     parts = (VERSION, _code(), problem, json.dumps(own), text)
