@@ -196,3 +196,13 @@ def test_another_dimension_is_told_under_the_title_and_in_the_table(opened):
     assert plain.locator(".title p").text_content() == "zeng2019"
     assert plain.locator("tr.differs").count() == 0
     assert plain.locator(".errata li").count() > 5
+
+
+def test_the_nearest_singularity_is_looked_for_once_its_number_is_seen(opened):
+    tab = opened("fivebar", width=390, height=800)
+    name = tab.locator(".numbers").get_by_text("to a singularity", exact=True)
+    number = name.locator("xpath=following-sibling::dd[1]")
+    tab.wait_for_timeout(400)  # three times as long as it rests before it looks
+    assert number.text_content() == "\N{HORIZONTAL ELLIPSIS}"
+    tab.locator(".numbers summary").click()
+    number.filter(has_text=re.compile(r"\d")).wait_for()

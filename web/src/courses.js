@@ -103,11 +103,8 @@ function around(mechanism, course, size, way, count) {
   return { samples, reason: null };
 }
 
-/**
- * A course followed once round from where the mechanism stands, as large as it can be with room around it.
- * @param {Course} course
- * @returns {{size: number, way: number, samples: number[][]}|{reason: object}} joint values at even times; why no size works
- */
+/** A course followed once round from where the mechanism stands, as large as it can be with room around it.
+ * @returns {{size: number, way: number, samples: number[][]}|{reason: object}} values at even times; why no size works */
 export function followedCourse(mechanism, course) {
   let reason = null;
   for (const size of course.sizes)

@@ -72,12 +72,10 @@ export function readHash(hash, { count, tabs, courses, layers }) {
   };
 }
 
-/**
- * Restores what the address says and keeps it up to date.
+/** Restores what the address says and keeps it up to date.
  * @param {Record<string, {read: () => any, put: (value: any) => void}>} choices beside pose and camera
  * @param {(text: string) => void} say a word where an address is damaged
- * @returns {() => string} the address now
- */
+ * @returns {() => string} the address now */
 export function linked(mechanism, stage, choices, known, say) {
   const restore = () => {
     const found = readHash(location.hash, { ...known, count: mechanism.model.count });

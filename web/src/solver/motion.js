@@ -24,12 +24,10 @@ const AIM = 0.9; // share of that which the next step is meant to go
 const FLOOR = 1e-8; // a measure below this may be on either side of 0
 const NEAREST = 1e-4; // no step goes nearer to a singularity than that, where rounding would hide the way back
 
-/**
- * @typedef {{kind: "stroke"|"gap"|"singular"|"limit", text: string, joint: string, amount: number}} Reason
+/** @typedef {{kind: "stroke"|"gap"|"singular"|"limit", text: string, joint: string, amount: number}} Reason
  * @typedef {{values: number[], status: "moved"|"stopped", reason: Reason|null, share: number,
- *   crossed: boolean, turned: boolean}} Moved share: of the way; crossed: a parallel singularity may have been passed, as
- * was asked for; turned: a serial one may have been, so that another working mode begins
- */
+ * crossed: boolean, turned: boolean}} Moved share: of the way; crossed: a parallel singularity may have been passed, as
+ * was asked for; turned: a serial one may have been, so that another working mode begins */
 
 /** The joint that a reason speaks of: of that name, or that an input drives; null where it names none. */
 export function blamed(model, reason) {
@@ -55,10 +53,8 @@ export function toInputs(model, values, target, options) {
   return followed(model, values, { side: "inputs", attempt, ask }, options);
 }
 
-/**
- * To a pose, lengths and rad, the working mode kept; `through` parallel singularities only if so asked, for no drive could
- * do that. @returns {Moved}
- */
+/** To a pose, lengths and rad, the working mode kept; `through` parallel singularities only if so asked, for no drive
+ * could do that. @returns {Moved} */
 export function toPose(model, values, target, options) {
   const way = between(model, poseOf(model, values), target);
   const attempt = (current, t) => nearAssembly(model, current, [], way(t));

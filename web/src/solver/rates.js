@@ -75,10 +75,8 @@ export function measuresAt(model, values) {
   return { ...motions, ...measures(motions) };
 }
 
-/**
- * The condition number of the map from the inputs' rates to those of the pose's own coordinates, phi, theta and psi among
- * them: what Python calls that of J. A right angle of theta leaves it without bound.
- */
+/** The condition number of the map from the inputs' rates to those of the pose's own coordinates, phi, theta and psi
+ * among them: what Python calls that of J. A right angle of theta leaves it without bound. */
 export const conditionAt = (model, values) =>
   measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : undefined)).condition;
 

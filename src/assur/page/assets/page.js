@@ -1,5 +1,5 @@
 /*!
-assur's page; Apache-2.0; sources 154866fb7d6b6adfc4b2c7ac22a35c84af986baf6f1dee8520f58b4e68baed4d
+assur's page; Apache-2.0; sources 695d2fe49efd795c0df449afa9f5671af34757c6fdbceaded9e9b0210cde58e0
 Inside: three.js 0.187.0
 
 The MIT License
