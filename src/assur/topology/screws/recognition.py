@@ -10,6 +10,7 @@ from typing import cast
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
+from assur.topology.screws.common_lines import with_common_lines
 from assur.topology.screws.limbs import LinkagePath, limbs
 from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
 from assur.topology.screws.shared_points import Line, line_of, meet, pivoted, size_of, with_shared_points
@@ -39,7 +40,7 @@ def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
     size = size_of(linkage)
     labels = (f"M{number}" for number in count(1))
     marked = [Chain(_marked(chain.elements, lines, labels, size)) for chain in paths_of_limbs]
-    return with_shared_points(marked, lines, labels, size, linkage.point)
+    return with_common_lines(with_shared_points(marked, lines, labels, size, linkage.point), linkage, labels, size)
 
 
 def _joint(joint: LinkageJoint) -> ChainJoint:
