@@ -4,6 +4,7 @@
 """
 
 import json
+import shutil
 from pathlib import Path
 
 import jsonschema
@@ -12,6 +13,7 @@ import pytest
 import assur
 from assur.cli.answers import ANSWERS
 from assur.cli.application import COMMANDS
+from assur.cli.main import main
 from assur.results.answers.schema import schema_of
 
 CLI = Path(assur.__file__).parent / "cli"
@@ -32,13 +34,26 @@ TOLD = {
 """What a mechanism of one's own is asked: command -> words after its name."""
 
 
+@pytest.fixture(scope="module")
+def drafted(tmp_path_factory):
+    """The file of a mechanism that nobody has seen before, without a closed form."""
+    path = tmp_path_factory.mktemp("drafted") / "own.toml"
+    assert main(["new", str(path), *CHAINS]) == 0
+    return path
+
+
 @pytest.fixture
-def own(tmp_path, monkeypatch, assur_cli):
-    """A mechanism that nobody has seen before, without a closed form."""
+def own(tmp_path, monkeypatch, drafted):
+    """A copy of it in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(drafted, "own.toml")
+    return "own.toml"
+
+
+def test_what_is_drafted_is_answered_as_the_schema_says(assur_cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     run = assur_cli("new", "own.toml", *CHAINS, "--json")
     assert (run.code, run.json["files"]) == (0, ["own.toml"])
-    return "own.toml"
 
 
 def test_every_command_says_which_answers_it_gives():
