@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
-from assur.derivation.closed_form_formulas import ClosedFormFormulas
-from assur.derivation.closed_form_meanings import ClosedFormMeanings, CoincidenceMotion
+from assur.derivation.closed_form_declaration import ClosedFormDeclaration
+from assur.derivation.closed_form_parts import ClosedFormParts
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import Root
 from assur.derivation.joint_formulas import BallRotation, Pointing
 from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
 from assur.derivation.symbols import circle_of
-from assur.kinematics.modes import Problem, written_quantities
-from assur.kinematics.naming import sign_meanings
-from assur.model.kernels.declarations import LONGEST_TEXT
+from assur.kinematics.modes import Problem
 
 CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""
 
@@ -39,25 +36,14 @@ def _over_circle(values):
 '''
 
 
-@dataclass(frozen=True, eq=False)
-class ClosedFormText:
-    """Writes the closed form of a mechanism whose direct and inverse problems were solved.
-
-    Attributes:
-        formulas: of both problems.
-        meanings: of its quantities; of a form that is worked out and not read by anyone there are none.
-        constraint_singular: groups of factors where the closure loses rank.
-    """
-
-    formulas: ClosedFormFormulas
-    meanings: ClosedFormMeanings | None = None
-    constraint_singular: tuple[tuple[str, ...], ...] = ()
+class ClosedFormText(ClosedFormParts):
+    """Writes the closed form of a mechanism whose direct and inverse problems were solved."""
 
     def text(self) -> str:
         """The file."""
         parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._self_motion(), self._core(),
                  self._joints(), self._factors(), self._jacobians(), self._quantities(),
-                 self._declaration()]  # fmt: skip
+                 ClosedFormDeclaration(self.formulas, self.meanings, self.constraint_singular).text()]  # fmt: skip
         return "\n\n".join(part.strip("\n") + "\n" for part in parts if part)
 
     @cached_property
@@ -70,11 +56,11 @@ class ClosedFormText:
         sets = "; ".join(part.name for part in self.formulas.direct.sets)
         imports = []
         declared = ["Branch", "ClosedForm", "Factor", "Margin", "Sign"]
-        if self._angles or self._eliminant is not None:
+        if self.angles or self.eliminant is not None:
             declared.append("Quantity")
-        if self._motion is not None:
+        if self.motion is not None:
             declared.append("SelfMotion")
-        if self._eliminant is not None:
+        if self.eliminant is not None:
             declared.append("Eliminant")
             imports.append("from assur.numerics.expanded import coefficients_of, unknowns")
         if self.formulas.joints.pointings:
@@ -104,8 +90,8 @@ class ClosedFormText:
         return any(turned for ball in self._balls for _, turned in ball.parts)
 
     def _problem(self, problem: Problem) -> str:
-        if problem == "direct" and self._eliminant is not None:
-            return "\n\n".join(part.strip("\n") + "\n" for part in self._polynomial(self._eliminant))
+        if problem == "direct" and self.eliminant is not None:
+            return "\n\n".join(part.strip("\n") + "\n" for part in self._polynomial(self.eliminant))
         solution = self.formulas.solution(problem)
         names = [self.formulas.signs[problem, root.symbol][0] for root in solution.roots]
         title = "Pose at given inputs" if problem == "direct" else "Inputs at a pose"
@@ -120,55 +106,21 @@ class ClosedFormText:
         roots = {root.symbol: root for root in self.formulas.solution(problem).roots}
         return (self._line(problem, own, roots) for own in definitions)
 
-    @property
-    def _motion(self) -> CoincidenceMotion | None:
-        if self.meanings is None or self.formulas.products:  # on the curve fewer signs are left, and products have more
-            return None
-        return self.meanings.self_motion
-
-    @property
-    def _motion_angle(self) -> str:
-        """The angle that runs along the curve: the file's name for it, else the link's."""
-        if self._motion is None:
-            return ""
-        base = self._motion.part.directions[0]
-        names = [name for name, own in self._angles.items() if own == base.unknowns]
-        return names[0] if names else base.name
-
     def _self_motion(self) -> str:
         """The kernel of the curve on which the platform moves while the inputs stand."""
-        motion = self._motion
+        motion = self.motion
         if motion is None:
             return ""
         cosine, sine = motion.part.directions[0].unknowns
         lines = ["def self_motion(ns, p, inputs, angle, sign):"]
-        signs = ", ".join(self._motion_signs) or "none"
-        lines.append(f'    """Poses at {motion.condition} = 0, by {self._motion_angle}. Signs: {signs}."""')
+        signs = ", ".join(self.motion_signs) or "none"
+        lines.append(f'    """Poses at {motion.condition} = 0, by {self.motion_angle}. Signs: {signs}."""')
         lines += self._given("direct")
         lines.append(f"    {cosine}, {sine} = angle")
         lines += self._lines("direct", motion.definitions)
         every = {own.symbol for own in self.formulas.direct.definitions}
         left_out = every - {own.symbol for own in motion.definitions} - {cosine, sine}
         return "\n".join([*lines, *self._branch("direct", left_out)])
-
-    @property
-    def _motion_signs(self) -> tuple[str, ...]:
-        """The signs that are left on the curve."""
-        if self._motion is None:
-            return ()
-        roots = [root for root in self.formulas.direct.roots if root not in self._motion.part.roots]
-        return tuple(self.formulas.signs["direct", root.symbol][0] for root in roots)
-
-    @cached_property
-    def _angles(self) -> dict[str, tuple[sympy.Expr, sympy.Expr]]:
-        """The angles that the file names, where a formula says them: cosine and sine."""
-        record = self.formulas.inverse.symbols.record
-        values = self.formulas.joints.values
-        pairs = {
-            name: values.get(own.joint, values.get(f"{own.joint}.{own.component}"))
-            for name, own in record.angles.items()
-        }
-        return {name: pair for name, pair in pairs.items() if isinstance(pair, tuple)}
 
     def _branch(self, problem: Problem, left_out: Collection[sympy.Symbol] = ()) -> list[str]:
         """The rest of a kernel, once its unknowns are known; margins of what is left out are left out too."""
@@ -184,19 +136,6 @@ class ClosedFormText:
         lines.append(f"    return Branch({pose}, {inputs}, margins, core)")
         return lines
 
-    @cached_property
-    def _eliminant(self) -> AngleEliminant | None:
-        return self.formulas.direct.eliminant
-
-    @property
-    def _unknown(self) -> str:
-        """What the polynomial is in, as a quantity: the platform's angle, or that of a link."""
-        record, eliminant = self.formulas.direct.symbols.record, self._eliminant
-        if eliminant is None:
-            return ""
-        posed = "phi" in record.platform.pose and record.platform.link in eliminant.direction.links
-        return "phi" if posed else eliminant.direction.name
-
     def _polynomial(self, eliminant: AngleEliminant) -> Iterator[str]:
         """The kernels of a direct problem that ends in one polynomial."""
         solution, names = self.formulas.direct, [self.formulas.signs["direct", own.symbol][0] for own in
@@ -211,7 +150,7 @@ class ClosedFormText:
         one = FreeNames({*solution.symbols.parameters, str(cosine), str(sine)}).named("one")
         last = eliminant.steps[-1].symbol
         lines = [f"def coefficients({arguments}):"]
-        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self._unknown}/2)."""')
+        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self.unknown}/2)."""')
         lines += self._given("direct")
         lines += self._lines("direct", (*before, *eliminant.known))
         lines.append("    (t,) = unknowns(1)")
@@ -224,7 +163,7 @@ class ClosedFormText:
         if eliminant.spare:
             yield OVER_CIRCLE
         lines = [f"def back({arguments}, root):" if not names else "def back(ns, p, inputs, root, sign):"]
-        lines.append(f'    """The pose at a root, cosine and sine of {self._unknown}."""')
+        lines.append(f'    """The pose at a root, cosine and sine of {self.unknown}."""')
         lines += self._given("direct")
         lines.append(f"    {cosine}, {sine} = root")
         lines += self._lines("direct", solution.definitions)
@@ -232,26 +171,16 @@ class ClosedFormText:
 
     def _quantities(self) -> str:
         """The angles that the file names, and the unknown of the polynomial."""
-        texts = {name: self._pair_text(pair) for name, pair in self._angles.items()}
-        if self._eliminant is not None:
-            pair = circle_of("phi") if self._unknown == "phi" else self._eliminant.direction.unknowns
-            texts[self._unknown] = f"({', '.join(f'core.{own}' for own in pair)})"
+        texts = {name: self._pair_text(pair) for name, pair in self.angles.items()}
+        if self.eliminant is not None:
+            pair = circle_of("phi") if self.unknown == "phi" else self.eliminant.direction.unknowns
+            texts[self.unknown] = f"({', '.join(f'core.{own}' for own in pair)})"
         if not texts:
             return ""
         lines = ["def quantities(ns, p, core):", '    """Angles by their names."""']
-        lines += self._taken([part for pair in self._angles.values() for part in pair])
+        lines += self._taken([part for pair in self.angles.values() for part in pair])
         body = ", ".join(f'"{name}": {text}' for name, text in texts.items())
         return "\n".join([*lines, f"    return {{{body}}}"])
-
-    def _quantity_list(self) -> Iterator[str]:
-        own = {
-            name: f"angle of joint {coordinate.joint}"
-            for name, coordinate in self.formulas.inverse.symbols.record.angles.items()
-            if name in self._angles
-        }
-        if self._eliminant is not None:
-            own[self._unknown] = f"angle of {self._eliminant.direction.links[0]}, the unknown of the direct problem"
-        return (f'Quantity("{name}", "angle", "", meaning="{meaning}")' for name, meaning in own.items())
 
     def _line(self, problem: Problem, own: Definition, roots: Mapping[sympy.Symbol, Root]) -> str:
         text = self.printer.doprint(own.formula)
@@ -357,78 +286,3 @@ class ClosedFormText:
             lines.append("    )")
         lines.append("    return jp, jq")
         return "\n".join(lines)
-
-    def _declaration(self) -> str:
-        record = self.formulas.inverse.symbols.record
-        reduced = bool(record.generalised) or bool(self.formulas.joints.pointings)
-        lines = ["CLOSED_FORM = ClosedForm("]
-        lines.append(f'    complete_for="{"reduced" if reduced else "joint_graph"}",')
-        if reduced:
-            lines.append(
-                '    reduced_because="parallelograms stay such, and what they keep from turning is not turned over",'
-            )
-        eliminant = self._eliminant
-        if eliminant is None:
-            lines.append("    direct=direct,")
-        else:
-            signs = tuple(self.formulas.signs["direct", own.symbol][0] for own in self.formulas.direct.roots)
-            extra = f", {signs!r}" if signs else ""
-            degree = self.formulas.direct.branches
-            lines.append(f'    direct=Eliminant("{self._unknown}", "angle", {degree}, coefficients, back{extra}),')
-        lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
-        quantities = [*self._quantity_list()]
-        if quantities:
-            lines.append("    quantities=quantities,")
-            lines += ["    quantity_list=(", *(f"        {text}," for text in quantities), "    ),"]
-        lines.append("    signs={")
-        scales = {name: self.formulas.scale(value) for name, value in self.formulas.sign_values.items()}
-        lines += [f'        "{name}": Sign("{sign_attribute(name)}", "{scale}"),' for name, scale in scales.items()]
-        lines.append("    },")
-        lines += [f"    {kind}={names!r}," for kind, names in self._names_of_graph().items()]
-        for problem in ("direct", "inverse"):
-            lines.append(f"    {problem}_margins=(")
-            lines += [f"        {text}," for text in self._margin_list(problem)]
-            lines.append("    ),")
-        lines.append("    factor_list=(")
-        for name, kind, value in self.formulas.factors:
-            unit, scale = self.formulas.unit(value), self.formulas.scale(value)
-            meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
-            meaning = meaning if len(meaning) <= LONGEST_TEXT else f"{name} vanishes"
-            lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{meaning}", unit={unit}),')
-        lines.append("    ),")
-        if self.constraint_singular:
-            lines.append(f"    constraint_singular={self.constraint_singular!r},")
-        if self._motion is not None:
-            lines += self._motion_declaration(self._motion)
-        lines.append(")")
-        return "\n".join(lines)
-
-    def _motion_declaration(self, motion: CoincidenceMotion) -> Iterator[str]:
-        if self.meanings is not None and self.meanings.self_motion_factors:
-            yield f"    self_motion_singular=({self.meanings.self_motion_factors!r},),"
-        margin = next(name for name, value in self.formulas.margins("direct") if value == motion.condition)
-        yield f'    self_motion=SelfMotion("{margin}", "{self._motion_angle}", {self._motion_signs!r}, self_motion),'
-
-    def _names_of_graph(self) -> dict[str, tuple[str, ...]]:
-        """Names of modes that are the joint graph's, where the file has none for a problem, in its order."""
-        record = self.formulas.inverse.symbols.record
-        kinds: dict[Problem, str] = {"inverse": "working", "direct": "assembly"}
-        names: dict[str, tuple[str, ...]] = {}
-        for problem, kind in kinds.items():
-            if not written_quantities(record, problem):
-                used = {name for (of, _), (name, _) in self.formulas.signs.items() if of == problem}
-                names[kind] = tuple(name for name in sign_meanings(record, problem) if name in used)
-        return {kind: own for kind, own in names.items() if own}
-
-    def _margin_list(self, problem: Problem) -> Iterator[str]:
-        solution = self.formulas.solution(problem)
-        roots = {root.radicand: root for root in solution.roots}
-        for name, value in self.formulas.margins(problem):
-            whole = self.formulas.in_unknowns(solution, value)
-            unit, scale = self.formulas.unit(whole), self.formulas.margin_scale(problem, value)
-            meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
-            meaning = meaning if len(meaning) <= LONGEST_TEXT else name
-            kind = 'zero="degenerate"'
-            if value in roots:
-                kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"
-            yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, {kind})'
