@@ -13,18 +13,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from assur.errors import UsageError
+from assur.export.answers_about_home import answers_about_home
 from assur.export.c99_text import HEAD, POLYNOMIAL, SELF_TEST
-from assur.kinematics.border import checked_poses
 from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.contract.kernel import Kernel, recorded
-from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.pose import pose_of
-from assur.kinematics.position import direct, inverse
-from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.kernel_dimensions import dimension_numbers
 from assur.model.mechanism import MechanismRecord
@@ -33,13 +27,6 @@ from assur.numerics.recording.c99 import c99, number_text
 from assur.numerics.recording.tape import pruned
 
 SIGNS = (1.0, -1.0)
-VECTORS = 8
-"""Problems about home by which the file tests itself."""
-DOUBTFUL = {
-    "direct": (Status.self_motion, Status.not_closed, Status.undecided),
-    "inverse": (Status.not_closed, Status.undecided),
-}
-"""What an answer by which the file is tested must not be."""
 FILLED = ("margin", "pose", "input", "factor", "jp", "jq")
 
 
@@ -281,31 +268,14 @@ class _Source:
         return "\n".join([*lines, "    }", "    return count;", "}", ""])
 
     def _self_test(self) -> str:
-        """Problems about home with what NumPy answers."""
-        record = self.record
-        home = pose_of(record, home_values(record))
-        random = np.random.default_rng(0)
-        poses = checked_poses(
-            record, home + 0.02 * np.maximum(np.abs(home), 0.1) * random.uniform(-1.0, 1.0, (VECTORS, len(home)))
-        )
-        asked: list[str] = []
-        for problem in self.problems:
-            solve: Any = direct if problem == "direct" else inverse
-            for pose in poses:
-                given = pose
-                if problem == "direct":
-                    answers = inverse(record, pose, method="closed form")
-                    if not len(answers):
-                        continue
-                    given = np.asarray(next(iter(answers)).inputs)
-                answer = solve(record, given, method="closed form")
-                results = [np.asarray(own.pose if problem == "direct" else own.inputs) for own in answer]
-                if any(own.status in DOUBTFUL[problem] for own in answer):
-                    continue
-                asked.append(_vector(self, problem, given, results))
+        asked = [
+            _vector(self, problem, given, results)
+            for problem in self.problems
+            for given, results in answers_about_home(self.record, problem)
+        ]
         return SELF_TEST.format(
             name=self.name, upper=self.name.upper(), tests="\n".join(asked),
-            scale=number_text(_length(record)),
+            scale=number_text(_length(self.record)),
         )  # fmt: skip
 
 
