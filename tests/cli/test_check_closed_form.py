@@ -14,12 +14,12 @@ FACTORS = ('"w": core.w,\n        "v": core.v,', '"w": core.w * core.w + 1,\n   
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """The folder of the paper's mechanism, copied, with one text of its closed form exchanged."""
+    """The folder of a mechanism, the paper's if none is named, copied, with one text of its closed form exchanged."""
     monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
 
-    def result(before="", after=""):
+    def result(before="", after="", name="zeng2019"):
         target = tmp_path / "bad"
-        shutil.copytree(BUILT_IN / "zeng2019", target, dirs_exist_ok=True)
+        shutil.copytree(BUILT_IN / name, target, dirs_exist_ok=True)
         path = target / "closed_form.py"
         text = path.read_text(encoding="utf-8")
         assert before in text
@@ -44,24 +44,26 @@ def test_check_names_factors_that_do_not_vanish(assur_cli, folder):
     assert {fault["path"] for fault in found.json["faults"]} == {"factor w", "factor v"}
 
 
+LONGER = ("meeting = 4 * p.l2 * p.l2 - square", "meeting = 5 * p.l2 * p.l2 - square", "fivebar")
+"""Rods of the five-bar that reach further where its poses are computed than they do."""
 QUESTIONS = {
-    "inverse": ("0", "0", "400"),
-    "direct": ("100", "-100", "0"),
-    "inverse --certify": ("0", "0", "400"),
+    "inverse": ("0", "200"),
+    "direct": ("120", "60"),
+    "inverse --certify": ("0", "200"),
     "workspace --certify": (),
-    "workspace --prove": ("x=-5:5,y=-5:5,z=236:238",),
+    "workspace --prove": ("x=-5:5,y=195:205",),
     "aspects": (),
     "certify": ("-o", "proof.json"),
     "report": ("-o", "report.html"),
-    "singularity": ("--pose", "0", "0", "400"),
-    "sweep": ("--along", "x=5", "--along", "y=5", "--along", "z=5", "-o", "grid"),
+    "singularity": ("--pose", "0", "200"),
+    "sweep": ("--along", "x=5", "--along", "y=5", "-o", "grid"),
     "show": (),
 }
 
 
 @pytest.mark.parametrize(
     ("question", "wrong"),
-    [*((question, RADICAND) for question in QUESTIONS), ("inverse", FACTORS), ("certify", FACTORS)],
+    [*((question, LONGER) for question in QUESTIONS), ("show", FACTORS), ("certify", FACTORS)],
 )
 def test_nothing_is_answered_or_proved(assur_cli, folder, monkeypatch, tmp_path, question, wrong):
     monkeypatch.chdir(tmp_path)
