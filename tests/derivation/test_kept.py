@@ -26,6 +26,7 @@ from assur.topology.notation import parse_chains
 HSOC = "{P[z] R[x] R[x] | P[z] R[x] R[x]} R[y] R[y]"
 DRAFTS = {
     "biglide": parse_chains(["P[x] R[z]", "P[x] R[z] R[z]"]),
+    "as the paper's": parse_chains(["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[y] P(4R)[x]"]),
     "upright rails": parse_chains([HSOC, "P[z] P(4R)[y] P(4R)[x]"]),  # parallelograms in another order
     "Delta": arranged("Delta", "").chains,
     "ppr": repeated("P[x] P[y] R[z]", 3),

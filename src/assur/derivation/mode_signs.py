@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,6 +21,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import AnalyticSolution
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, pose
+from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.naming import sign_meanings, signs_at
@@ -30,12 +32,13 @@ from assur.model.kernels.reading import names_of
 from assur.model.pose import LENGTHS
 from assur.numerics.number_types import Floats
 
+FloatArray = NDArray[np.float64]
 Share = tuple[set[int], set[str], int]
 """Names by their numbers and divisors, whose product has a sign, and the sense."""
 _Table = tuple[NDArray[np.bool_], dict[str, NDArray[np.bool_]]]
 RootSigns = dict[tuple[Problem, sympy.Symbol], tuple[str, int]]
-PLACES, NEAR, FAR = 24, 0.05, 1.0
-"""Poses about home, in characteristic lengths and rad, at which signs are compared; far ones where they must change."""
+PLACES, NEAR = 24, 0.05
+"""Poses about home, in characteristic lengths and rad, at which signs are compared."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +128,7 @@ class _Matching:
         """The signs of roots, each a product of names and of divisors; the names that are left."""
         meanings = [*sign_meanings(self.record, problem)]
         divisors = self.divisors if problem == "direct" else {}
-        tables = [self._table(problem, solution, divisors, near) for near in (NEAR, FAR)]
+        tables = [self._table(problem, solution, divisors, poses) for poses in (self._anywhere, self._about_home)]
         shares: dict[sympy.Symbol, dict[int, Share]] = {}
         for root in solution.roots:
             share = self._shares(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
@@ -147,10 +150,10 @@ class _Matching:
         return {k: name for k, name in enumerate(meanings) if k not in chosen}
 
     def _table(
-        self, problem: Problem, solution: AnalyticSolution, divisors: Mapping[str, sympy.Expr], near: float
+        self, problem: Problem, solution: AnalyticSolution, divisors: Mapping[str, sympy.Expr], poses: FloatArray
     ) -> _Table:
         """Which signs are minus: of names (N, s), and by name of roots and divisors (N,)."""
-        branches = self._branches(near)
+        branches = self._branches(poses)
         named = signs_at(self.record, problem, branches.joints)
         sound = np.all(named != 0, axis=1)
         own = [self.own[problem, root.symbol][0] for root in solution.roots]
@@ -159,11 +162,11 @@ class _Matching:
     def _shares(self, tables: Sequence[_Table], root: str, count: int, divisors: Sequence[str]) -> dict[int, Share]:
         """Name -> names, itself among them, and divisors whose product has the sign of a root, and the sense.
 
-        One name alone before products; what holds far from home too before what holds near it.
+        What holds far from home too before what holds near it; one name alone before products.
         """
-        wide, near = (np.concatenate([table[0] for table in own]) for own in (tables, tables[:1]))
+        wide, near = (np.concatenate([table[0] for table in own]) for own in (tables, tables[1:]))
         signs = {
-            name: [np.concatenate([table[1][name] for table in own]) for own in (tables, tables[:1])]
+            name: [np.concatenate([table[1][name] for table in own]) for own in (tables, tables[1:])]
             for name in (root, *divisors)
         }
         for k, named in enumerate((wide, near)):
@@ -174,7 +177,6 @@ class _Matching:
                     alone[own] = ({own}, set[str](), -1 if unlike[0] else 1)
             if alone:
                 return alone
-        for k, named in enumerate((wide, near)):
             columns = [np.ones(len(named), dtype=bool), *named.T, *(signs[name][k] for name in divisors)]
             chosen = summands(np.stack(columns, axis=1), signs[root][k])
             if chosen is not None:
@@ -185,7 +187,7 @@ class _Matching:
 
     def _of_factors(self, left: Mapping[int, str]) -> dict[str, sympy.Expr]:
         """Names of modes of a polynomial that products of factors, and of quantities of roots, are the signs of."""
-        branches = self._branches(FAR)
+        branches = self._branches(self._anywhere)
         named = signs_at(self.record, "direct", branches.joints)
         quantities = {
             name: (value, branches.factors[name]) for name, kind, value in self.formulas.factors if kind != "other"
@@ -203,14 +205,23 @@ class _Matching:
                 products[name] = sense * sympy.prod([quantities[own][0] for own in chosen])
         return products
 
-    def _branches(self, near: float) -> _Branches:
-        """Branches at poses about home."""
-        record, form = self.record, self.form
-        home = pose.pose_of(record, home_values(record))
-        length = characteristic_length(record)
-        scales = np.array([length if name in LENGTHS else 1.0 for name in record.platform.pose])
+    @cached_property
+    def _about_home(self) -> FloatArray:
+        """Poses (N, m) about home."""
+        home = pose.pose_of(self.record, home_values(self.record))
+        length = characteristic_length(self.record)
+        scales = np.array([length if name in LENGTHS else 1.0 for name in self.record.platform.pose])
         random = np.random.default_rng(0)
-        poses = home + near * scales * random.uniform(-1.0, 1.0, (PLACES, len(home)))
+        return np.asarray(home + NEAR * scales * random.uniform(-1.0, 1.0, (PLACES, len(home))))
+
+    @cached_property
+    def _anywhere(self) -> FloatArray:
+        """Poses (N, m) of assemblies by chance, in any mode: each root is real, and has both signs, at some of them."""
+        return pose.pose_of(self.record, assemblies_by_chance(self.record))
+
+    def _branches(self, poses: FloatArray) -> _Branches:
+        """Branches at poses."""
+        record, form = self.record, self.form
         roots = [self.own["inverse", root.symbol][0] for root in self.inverse.roots]
         choices = np.array([*itertools.product((1.0, -1.0), repeat=len(roots))]).reshape(2 ** len(roots), len(roots))
         many, rows = np.repeat(poses, len(choices), axis=0), np.tile(choices, (len(poses), 1))

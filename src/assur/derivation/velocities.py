@@ -123,13 +123,15 @@ class _Velocities:
         return own if own.is_number else entry
 
     def _alike(self, row: Form) -> Form:
-        """A row in which unknowns that are the same, or opposite, have one name."""
+        """A row in which of unknowns that are multiples of each other, by dimensions alone, one is left."""
         alike: dict[sympy.Symbol, sympy.Expr] = {}
+        parameters = {*self.symbols.parameters.values()}
         for form in sparse(self.solution.loops.forms, self.witness):
             if len(form) == 2 and all(isinstance(key, sympy.Symbol) for key in form):
                 (first, a), (second, b) = form.items()
-                if self.witness.is_zero(a - b) or self.witness.is_zero(a + b):
-                    alike[first] = second if self.witness.is_zero(a + b) else -second
+                ratio = tidy(-b / a)
+                if not ratio.free_symbols - parameters:
+                    alike[first] = ratio * second
         return {key: part.subs(alike) for key, part in row.items()}
 
     def _driven(self) -> Iterator[UnknownDirection]:

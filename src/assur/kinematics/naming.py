@@ -68,8 +68,10 @@ def described_signs(record: MechanismRecord, problem: Problem) -> tuple[Describe
 
     signs: dict[str, DescribedSign] = {}
     own = kept_signs(record, problem)
+    # a closed form calls the signs of both problems by their names
+    others = {sign.name for sign in described_signs(record, "inverse")} if problem == "direct" else set[str]()
     for letter, sign in zip(_letters(record, problem, len(own)), own, strict=True):
-        name = sign_name(record, sign, {*signs})
+        name = sign_name(record, sign, {*signs} | others)
         places = tuple(joint for joint in sign.joints if joint in record.joints)
         signs[name] = DescribedSign(name, letter, sentence(record, sign), places, False)
     return tuple(signs.values())

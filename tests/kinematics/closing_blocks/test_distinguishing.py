@@ -12,12 +12,15 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, distinguishing_signs
-from assur.kinematics.closure import closure_jacobian
+from assur.kinematics.closure import assemble, closure_jacobian
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import lettered, mode_texts
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.naming import sign_meanings
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
+from assur.kinematics.starts import by_chance
+from assur.kinematics.still import otherwise
 from assur.model.registry import load_record
 from regular_walks import changes
 
@@ -89,6 +92,25 @@ def test_they_tell_the_solutions_apart_as_the_closed_form_does(name, problem, gi
     assert len(np.unique(signs, axis=0)) == len(signs) == modes
 
 
+@pytest.mark.parametrize(("problem", "branches"), [("inverse", 32), ("direct", 8)])
+def test_they_tell_every_branch_apart_that_there_is_anywhere(problem, branches):
+    """At one pose eight of the paper's 32 are real at most; the names are one for one those of the closed form."""
+    record = load_record("zeng2019")
+    closed = assemble(record, by_chance(record, 1000, np.random.default_rng(3)), far=True)
+    values = closed.values[closed.closed]
+    values = values[[not other for other in otherwise(record, values)]]
+    inputs, written = inputs_of(record, values), named_signs(record, problem, values)
+    # B of Eq. (9) is of the inputs alone: at given ones its sign tells no branches apart
+    asked = np.sign(inputs[:, :1] - record.parameters["l3"].value - inputs[:, 1:2])[:, : int(problem == "direct")]
+    named = signs_of(record, problem, values)
+    regular = np.all(named != 0, axis=1)
+    kinds = [
+        len(np.unique(np.hstack([*own, asked])[regular], axis=0)) for own in ((written,), (named,), (written, named))
+    ]
+    assert len(np.unique(written[regular], axis=0)) == branches
+    assert kinds[0] == kinds[1] == kinds[2]
+
+
 def test_solutions_of_one_sign_get_letters():
     """A cusp: between the assemblies of a 3-RPR of one sign lies no singularity on some way."""
     record = load_record("planar_3rpr")
@@ -113,10 +135,10 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
 
 def test_where_no_solution_is_regular_nothing_differs():
     """Some factor may vanish at every solution that is met; the answer then has no names, but is one."""
-    nothing = _Solutions(np.zeros(0, dtype=int), np.zeros((0, 3), dtype=np.int8))
+    nothing = _Solutions(np.zeros((0, 5)), np.zeros(0, dtype=int), np.zeros((0, 3), dtype=np.int8))
     assert nothing.alike.shape == (0, 3)
     signs = np.array([[1, 1], [1, -1], [1, 1], [-1, 1]], dtype=np.int8)
-    alike = _Solutions(np.array([0, 0, 1, 1]), signs).alike
+    alike = _Solutions(np.zeros((4, 5)), np.array([0, 0, 1, 1]), signs).alike
     assert sorted(alike.tolist()) == [[False, False], [False, True], [True, False]]
 
 

@@ -1,5 +1,6 @@
-"""Mode signs: the fewest signs of closing blocks that tell the solutions of a problem apart.
+"""Mode signs: signs of closing blocks that tell the solutions of a problem apart, wherever they are real.
 
+They are the fewest that do so at three problems, and as many more as are independent where two solutions merge.
 Each changes at singularities alone, so that a name is kept along every regular path. A rod between universal joints
 can stand in two ways that look alike, half a turn about its line apart; a sign that differs between them is joined
 with another one that does, so that what looks alike bears one name.
@@ -20,7 +21,8 @@ from assur.kinematics.closing_blocks.ball_ends import with_ball_ends
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closing_blocks.chains import nodes
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
-from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factors
+from assur.kinematics.closing_blocks.folds import differing_at_folds
+from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors
 from assur.kinematics.closure import assemble
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
@@ -30,6 +32,7 @@ from assur.kinematics.search import SAME, places
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.modulo_two import independent
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int_]
@@ -73,6 +76,10 @@ class ModeSign:
         signs: SignArray = np.prod([factor.signs(screws) for factor in self.factors], axis=0, dtype=np.int8)
         return signs
 
+    def shares(self, screws: ScrewColumns) -> FloatArray:
+        """Product (N,) of what the factors are as shares; zero where one of them vanishes."""
+        return np.asarray(np.prod([factor.shares(screws) for factor in self.factors], axis=0))
+
 
 @lru_cache(maxsize=64)
 def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
@@ -88,14 +95,20 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
     answers = [_Solutions.of(ordered, values, known) for values in _solved(ordered, problem, _targets(ordered, known))]
-    combinations = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
-    columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in combinations]
+    joined = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
+    columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in joined]
     moving = {k for k, factor in enumerate(known) if isinstance(factor, BlockSign) and factor.moving}
     # a flat parallelogram is no singularity of the direct problem of those that stay such
-    last = [problem == "direct" and bool(moving & {*chosen}) for chosen in combinations]
-    order = _separating(columns, [answer.solution for answer in answers], last)
-    own = [_in_file_order(factor, record) for factor in known]
-    return tuple(ModeSign(tuple(own[k] for k in combinations[place])) for place in sorted(order))
+    last = [problem == "direct" and bool(moving & {*chosen}) for chosen in joined]
+    order = [*_separating(columns, [answer.solution for answer in answers], last)]
+    near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
+    merging = differing_at_folds(ordered, problem, signs, near)
+    listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
+    order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
+    return tuple(
+        ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)
+    )
 
 
 def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
@@ -109,8 +122,9 @@ def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
 
 @dataclass(frozen=True, eq=False)
 class _Solutions:
-    """Solutions of one problem by chance: which (N,) of them each assembly is, and its signs (N, s)."""
+    """Solutions of one problem by chance: assemblies (N, n), which (N,) of them each is, and its signs (N, s)."""
 
+    values: FloatArray
     solution: IntArray
     signs: SignArray
 
@@ -118,10 +132,9 @@ class _Solutions:
     def of(cls, record: MechanismRecord, values: FloatArray, known: Sequence[Factor]) -> _Solutions:
         """Those that assemblies (N, n) are."""
         solution = _numbered(record, values)
-        screws = ScrewColumns(record, values)
-        signs = np.array([factor.signs(screws) for factor in known], dtype=np.int8).reshape(len(known), len(values)).T
+        signs = factor_signs(known, ScrewColumns(record, values))
         regular = np.all(signs != 0, axis=1)
-        return cls(solution[regular], signs[regular])
+        return cls(values[regular], solution[regular], signs[regular])
 
     @property
     def alike(self) -> NDArray[np.bool_]:

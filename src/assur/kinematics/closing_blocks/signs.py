@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, product
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,18 @@ MOST_RATES = 9
 """Motions of a group up to which single joints of it are left at rest, in search of factors: each takes some 10 ms."""
 
 
+class ChangingSign(Protocol):
+    """What is zero at singularities alone."""
+
+    def signs(self, screws: ScrewColumns) -> SignArray:
+        """Signs (N,); 0 where it vanishes."""
+        ...
+
+    def shares(self, screws: ScrewColumns) -> FloatArray:
+        """Values (N,)."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class BlockSign:
     """The sign of a closing block.
@@ -73,7 +86,7 @@ class BlockSign:
         """Those of the block."""
         return self.block.joints
 
-    def determinants(self, screws: ScrewColumns) -> FloatArray:
+    def shares(self, screws: ScrewColumns) -> FloatArray:
         """The block's determinant (N,) as a share of its largest among assemblies by chance; positive at home."""
         return np.asarray(np.linalg.det(self.matrices(screws)) / self.size)
 
@@ -85,7 +98,7 @@ class BlockSign:
 
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where the block is singular."""
-        return _with_zero(self.determinants(screws))
+        return _with_zero(self.shares(screws))
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,14 +124,14 @@ class StrokeSign:
         """The three of them."""
         return self.near, self.slide, self.far
 
-    def strokes(self, screws: ScrewColumns) -> FloatArray:
+    def shares(self, screws: ScrewColumns) -> FloatArray:
         """The stroke (N,) as a share of home's."""
         line = screws.centre(self.far) - screws.centre(self.near)
         return np.asarray(np.einsum("ni,ni->n", line, screws.axis(self.slide)) / self.size)
 
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where the joints are in one place."""
-        return _with_zero(self.strokes(screws))
+        return _with_zero(self.shares(screws))
 
 
 def _with_zero(values: FloatArray) -> SignArray:
@@ -128,6 +141,12 @@ def _with_zero(values: FloatArray) -> SignArray:
 
 Factor = BlockSign | StrokeSign
 """A function of the configuration whose sign only changes at singularities."""
+
+
+def factor_signs(known: Sequence[ChangingSign], screws: ScrewColumns) -> SignArray:
+    """Signs (N, s) of factors; 0 where one vanishes."""
+    signs = [factor.signs(screws) for factor in known]
+    return np.array(signs, dtype=np.int8).reshape(len(known), len(screws.values)).T
 
 
 @lru_cache(maxsize=64)
@@ -165,7 +184,7 @@ def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
             line = screws.centre(far) - screws.centre(near)
             off = np.linalg.norm(cross(line, screws.axis(name)), axis=1)
             if np.max(off) < SMALL * characteristic_length(record):
-                stroke = float(StrokeSign(name, near, far).strokes(screws)[0])
+                stroke = float(StrokeSign(name, near, far).shares(screws)[0])
                 if stroke:
                     yield StrokeSign(name, near, far, stroke)
 
@@ -293,7 +312,7 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
         return None
     for spins in combinations(block.spins, spinning):
         trial = BlockSign(replace(block, spins=spins), links, rates, basis, 1.0)
-        values = trial.determinants(screws)
+        values = trial.shares(screws)
         size = float(np.max(np.abs(values)))
         if np.max(np.linalg.matrix_rank(trial.matrices(screws), tol=SMALL)) == rates.shape[1]:
             return replace(trial, size=-size if values[0] < -MERGED * size else size)
