@@ -58,6 +58,6 @@ def test_answers_and_names_are_those_of_the_hand_written_form(both):
             back = [{own.mode: own.pose for own in direct(record, inputs, method="closed form")} for record in both]
             assert back[0].keys() == back[1].keys()
             for mode, value in back[0].items():
-                assert np.allclose(value, back[1][mode], rtol=0, atol=1e-6 * length)
+                assert np.allclose(value, back[1][mode], rtol=0, atol=1e-9 * length)
             compared += 1
     assert compared >= 8
