@@ -84,7 +84,10 @@ def test_another_s_closed_form_is_neither_read_nor_replaced(assur_cli, folder, w
 
 @pytest.mark.parametrize(
     "words",
-    [("--limb", "R[z] R[z] R[z]", "--count", "3"), HYBRID, ("--from", "six_sps"), ("--limb", "R[y] P(4S)[y]")],
+    [
+        *(("--limb", "R[z] R[z] R[z]", "--count", "3"), ("--limb", "R[y] P(4S)[y]")),
+        *(pytest.param(words, marks=pytest.mark.deep) for words in (HYBRID, ("--from", "six_sps"))),
+    ],
 )
 def test_a_draft_is_sound_and_can_be_shown(assur_cli, folder, words):
     run = assur_cli("new", "my.toml", *words)

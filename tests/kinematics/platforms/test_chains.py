@@ -60,7 +60,14 @@ def newton(limb, frame, values):
     return values if np.linalg.norm(gap(values)) < 1e-9 else None
 
 
-@pytest.mark.parametrize("kinds", [("turn",) * 6, ("turn", "turn", "slide", "turn", "turn", "turn"), ("turn",) * 5])
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        ("turn",) * 6,
+        pytest.param(("turn", "turn", "slide", "turn", "turn", "turn"), marks=pytest.mark.deep),
+        ("turn",) * 5,
+    ],
+)
 def test_all_ways_close_and_a_search_meets_no_other(kinds):
     limb = chain(3, kinds)
     rng = np.random.default_rng(8)

@@ -42,7 +42,7 @@ def of(*chains: str, **options: object) -> Drafted:
     return drafted(parse_chains(chains), PATH, **options)
 
 
-@pytest.mark.parametrize("name", each(topology_names(), ("planar_3rrr", "delta_4s", "gough_stewart", "three_ups_up")))
+@pytest.mark.parametrize("name", each(topology_names(), ("planar_3rrr", "delta_4s", "three_ups_up")))
 def test_every_topology_of_the_catalogue_becomes_a_sound_file_with_its_declared_facts(name):
     described = load_topology(name)
     numbers = [f"{limb}.{joint}" for limb, joint in described.actuate]
@@ -58,7 +58,9 @@ def test_every_topology_of_the_catalogue_becomes_a_sound_file_with_its_declared_
     assert Status(int(classify_at(record, home_values(record)))) is Status.regular
 
 
-@pytest.mark.parametrize("name", ["delta_4s", "planar_3rrr", "orthoglide", "three_ups_up"])
+@pytest.mark.parametrize(
+    "name", each(["delta_4s", "planar_3rrr", "orthoglide", "three_ups_up"], ["delta_4s", "planar_3rrr"])
+)
 def test_as_drawn_the_loops_close_whatever_the_parameters_are(name):
     record = read(drafted(load_topology(name).chains, PATH, coordinates=True))
     zeros = np.zeros(len(record.coordinates))
@@ -212,7 +214,9 @@ def test_screws_are_drafted_without_a_word_about_singularities(chains):
     [
         ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"],
         [chain.text for chain in repeated("P[x] R[y] S", 3)],
-        ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
+        pytest.param(
+            ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"], marks=pytest.mark.deep
+        ),
     ],
 )
 def test_home_is_not_at_the_end_of_a_leg_s_reach(chains):
