@@ -16,7 +16,7 @@ from assur.model.topologies import load_topology, means_topology
 from assur.model.topology_description import TopologyDescription
 from assur.results.answers.topology import MetMode
 from assur.topology.analysis import Mode, analyse
-from assur.topology.chains import Chain
+from assur.topology.chains import BASE, PLATFORM, Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import InputsBy, Topology
 from assur.topology.met_modes import DRAWS, met_modes
@@ -153,16 +153,21 @@ def _of_chains(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     """Of some dimensions with which the chains move as others do; else of some with which their motion is proved."""
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     inputs_by: InputsBy = "given" if actuate else "first joints"
-    at = told_point(chains, held=mode == "translation")
+    for link in (BASE, PLATFORM):
+        if not any(link in (chain.start, chain.end) for chain in chains):
+            hint = "a chain that names no link begins at <base> and ends at <platform>"
+            raise UsageError(f"no chain begins or ends at <{link}>", hint=hint)
+    limbs = chains if all(chain.is_limb for chain in chains) else None
+    at = told_point(limbs, held=mode == "translation") if limbs else ""
     placed = [place(chains, seed=seed, actuated=names, at=at) for seed in range(PLACINGS)]
     for seed, built in enumerate(placed):
         try:
-            found = analyse(built, chains, mode=mode, inputs_by=inputs_by)
+            found = analyse(built, limbs, mode=mode, inputs_by=inputs_by)
         except (ShakyError, ImmobileError) as error:
             refused = error
             continue
         return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
-    shaky = (analyse_shaky(built, chains, inputs_by=inputs_by) for built in placed)
+    shaky = (analyse_shaky(built, limbs, inputs_by=inputs_by) for built in placed)
     proved = next(filter(None, shaky), None) if mode == "home" else None
     if proved is None:
         raise refused

@@ -114,13 +114,23 @@ class InnerLoop:
 
 Element = ChainJoint | Parallelogram | InnerLoop
 
+BASE, PLATFORM = "base", "platform"
+"""Names of the links that limbs lead from and to."""
+
 
 @dataclass(frozen=True)
 class Chain:
-    """A limb: elements from the base to the platform, and the text that they were read from."""
+    """Elements from one link to another, of a limb from base to platform, and the text that they were read from."""
 
     elements: tuple[Element, ...]
     text: str = ""
+    start: str = BASE
+    end: str = PLATFORM
+
+    @property
+    def is_limb(self) -> bool:
+        """Whether it leads from the base to the platform."""
+        return (self.start, self.end) == (BASE, PLATFORM)
 
     @property
     def joints(self) -> tuple[ChainJoint | Parallelogram, ...]:

@@ -34,8 +34,11 @@ PROBLEMS: dict[Problem, str] = {"inverse": "working mode", "direct": "assembly m
 """Problem -> whose modes are branches of it."""
 
 
-def _refuse_points_on_axes(chains: Sequence[Chain]) -> None:
+def _refuse_what_no_draft_has(chains: Sequence[Chain]) -> None:
     for number, chain in enumerate(chains, 1):
+        if not chain.is_limb:
+            ends = f"from {chain.start} to {chain.end}"
+            raise UsageError(f"chain {number} leads {ends}; only limbs from base to platform are drafted")
         for joint in chain.joints:
             if isinstance(joint, ChainJoint) and joint.through:
                 raise UsageError(
@@ -87,7 +90,7 @@ def drafted(
     """
     name = mechanism_name(path)
     chains, actuate = limbs_apart(chains, actuate)
-    _refuse_points_on_axes(chains)
+    _refuse_what_no_draft_has(chains)
     if len(chains) == 1 and not any(isinstance(element, InnerLoop) for element in chains[0].elements):
         raise UsageError(
             "one open chain closes no loop; a parallel mechanism needs two limbs or more, or an inner loop",

@@ -121,13 +121,15 @@ def _candidates(edges: Sequence[Edge], chains: Sequence[Chain], columns: Sequenc
         for number, chain in enumerate(chains)
         for name, group, distance in _places(chain.elements, (number,), 0)
     }
-    holds = [_holds(chain) for chain in chains]
+    holds: dict[tuple[int, ...], bool] = {(number,): _holds(chain) for number, chain in enumerate(chains)}
     names = [edge.name for edge in edges for _ in range(edge.freedoms)]
     second = [name.endswith(".2") and name not in places for name in column_names(edges)]
     candidates = []
     for column in columns:
-        group, distance = places[names[column]]
-        candidates.append(_Candidate(column, group, distance + UNUSUAL * second[column], holds[group[0]]))
+        # in a graph without limbs each joint is by itself, in the order in which they are written
+        group, distance = places.get(names[column], ((len(chains) + column,), column))
+        holding = holds.get(group[:1], False)
+        candidates.append(_Candidate(column, group, distance + UNUSUAL * second[column], holding))
     return sorted(candidates, key=lambda candidate: (candidate.group, candidate.distance))
 
 

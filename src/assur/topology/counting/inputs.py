@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.chains import BASE, Chain, ChainJoint, Element, InnerLoop, Parallelogram
 
 
 def default_inputs(chains: Sequence[Chain]) -> tuple[str, ...]:
@@ -13,7 +13,7 @@ def default_inputs(chains: Sequence[Chain]) -> tuple[str, ...]:
 
     An inner loop at the base has several branches, so a limb may have several inputs.
     """
-    return tuple(name for chain in chains for name in _first(chain.elements))
+    return tuple(name for chain in chains if chain.start == BASE for name in _first(chain.elements))
 
 
 def _first(elements: Sequence[Element]) -> list[str]:

@@ -24,7 +24,7 @@ def build(sketches: Sequence[Sketch], vectors: Sequence[Sequence[Vector]]) -> tu
     for sketch, axes in zip(sketches, vectors, strict=True):
         points = _points(sketch, labels)
         elements = tuple(_element(sketch, element, axes, points, names) for element in sketch.elements)
-        chains.append(Chain(elements, sketch.source.text))
+        chains.append(Chain(elements, sketch.source.text, *sketch.ends))
     return tuple(chains)
 
 

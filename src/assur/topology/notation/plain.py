@@ -16,8 +16,12 @@ def plain_text(chain: Chain) -> str:
         '{P[y] R[x] R[x] | P[y] R[x] R[x]} U[y,-z]@A S@A P(4R)[1,1,0]'
         >>> plain_text(parse_chain("R[x]@A@B U[1,2,0@A,y]"))
         'R[x]@A@B U[1,2,0@A; y]'
+        >>> plain_text(parse_chain("<rod>R[z]R[z]"))
+        '<rod> R[z] R[z] <platform>'
     """
-    return _series(chain.elements)
+    start, end = (f"<{link}>" for link in (chain.start, chain.end))
+    text = _series(chain.elements)
+    return text if chain.is_limb else f"{start} {text} {end}"
 
 
 def _series(elements: tuple[Element, ...]) -> str:

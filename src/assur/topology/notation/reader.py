@@ -1,6 +1,6 @@
 """Reading the text of a chain, plain or as the literature writes it, into what it says.
 
-    chain   = serial | ("SOC" | "HSOC") [number] "{" serial "}"
+    chain   = ["<" link ">"] serial ["<" link ">"] | ("SOC" | "HSOC") [number] "{" serial "}"
     serial  = ["-"] element { [sign] element } ["-"]
     element = joint | "◇" "(" joint "," joint ")" | "{" serial "|" serial { "|" serial } "}"
     joint   = letter [number] { "(" kind or tag ")" | "[" directions "]" | "@" label }
@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 
 from assur.joints.catalogue import BY_LETTER
+from assur.topology.chains import BASE, PLATFORM
 from assur.topology.notation import signs
 from assur.topology.notation.cursor import LETTERS, Cursor
 from assur.topology.notation.errors import Source
@@ -26,6 +27,7 @@ MAX_DEPTH = 10
 MAX_JOINTS = 60
 
 _WRAPPER = re.compile(r"H?SOC(?:_?\d+|_\{\d+\})?(?=\s*(?:\\left)?\s*\\?\{)", re.ASCII)
+_LINK = re.compile(r"<\s*([a-z][a-z0-9_ ]*?)\s*>", re.ASCII)
 _UNDERLINE = re.compile(r"_[A-Z]|\\underline")
 DRIVEN = "what is driven is said beside the chains, as limb.joint counted from the base: --actuate 1.1,2.1"
 _ROUND_OPEN, _ROUND_CLOSE, _COMMA = re.compile(r"\("), re.compile(r"\)"), re.compile(",")
@@ -60,12 +62,24 @@ class _Reader:
             cursor.skip()
             opened = cursor.at
             cursor.take(signs.OPEN)
+        start = self._link(BASE)
         serial = self._serial()
         if wrapped:
             self._close(opened)
+        behind = cursor.at
+        end = self._link(PLATFORM)
+        if start == end:
+            hint = "a chain leads from one link to another: <a> R[z] R[z] <b>"
+            raise cursor.error(behind, f"a chain from {start} to itself", "two links", hint)
         if not cursor.ended:
             raise cursor.unexpected("the end" if wrapped else "a joint, a sign or the end")
-        return WrittenLimb(cursor.source, serial, self.literature)
+        return WrittenLimb(cursor.source, serial, self.literature, (start, end))
+
+    def _link(self, default: str) -> str:
+        """A named link, where there is one."""
+        self.cursor.skip()
+        match = self.cursor.take(_LINK)
+        return match.group(1) if match else default
 
     def _serial(self) -> Serial:
         self._sign(leading=True)
@@ -81,6 +95,8 @@ class _Reader:
 
     def _serial_ends(self) -> bool:
         cursor = self.cursor
+        if self.depth == 0 and cursor.sees(_LINK):
+            return True
         return cursor.ended or cursor.sees(signs.CLOSE) or (self.depth > 0 and cursor.sees(signs.BRANCH))
 
     def _sign(self, *, leading: bool = False) -> WrittenSign:

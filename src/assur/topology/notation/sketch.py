@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from assur.topology.chains import BASE, PLATFORM
 from assur.topology.notation.errors import Source
 from assur.topology.notation.syntax import WrittenDirection, WrittenJoint
 
@@ -78,6 +79,7 @@ class Sketch:
     written_labels: set[str] = field(default_factory=set)
     names: dict[str, int] = field(default_factory=dict)
     first: list[int] = field(default_factory=list)
+    ends: tuple[str, str] = (BASE, PLATFORM)
 
     def slot(self, placed: WrittenDirection | None = None, *, auxiliary: bool = False) -> int:
         """A new slot."""

@@ -18,7 +18,7 @@ def sketch_of(limb: WrittenLimb) -> Sketch:
     Errors:
         NotationError: a name twice; a sign to which its neighbours give no meaning; tags that make no loop.
     """
-    sketch = Sketch(limb.source, limb.literature)
+    sketch = Sketch(limb.source, limb.literature, ends=limb.ends)
     sketch.elements = _series(sketch, limb.serial)
     return sketch
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from assur.topology.chains import ParallelogramKind
+from assur.topology.chains import BASE, PLATFORM, ParallelogramKind
 from assur.topology.directions import Vector
 from assur.topology.notation.errors import Source
 from assur.topology.notation.signs import Relation
@@ -93,11 +93,12 @@ class Serial:
 
 @dataclass(frozen=True)
 class WrittenLimb:
-    """A chain as written. `literature`: it uses signs, a diamond or tags, or stands in SOC{ }."""
+    """A chain as written. `literature`: it uses signs, a diamond or tags, or stands in SOC{ }. `ends` are links."""
 
     source: Source
     serial: Serial
     literature: bool
+    ends: tuple[str, str] = (BASE, PLATFORM)
 
 
 def _count(number: int, letter: str) -> str:

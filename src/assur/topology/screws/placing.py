@@ -18,14 +18,12 @@ from assur.joints.joint_type import JointType
 from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
-from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.chains import BASE, PLATFORM, Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.labelled_points import centre_of, tied_points
 from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
 from assur.topology.screws.shared_points import common_end
 
 FloatArray = NDArray[np.float64]
-
-BASE, PLATFORM = "base", "platform"
 
 LENGTHS = (0.6, 1.2)
 """Of rods and short links; pitches of helices are half of it per rad."""
@@ -96,7 +94,7 @@ class _Building:
     def limb(self, number: int, chain: Chain) -> FloatArray | None:
         """Place a chain; where its last R axis or joint centre is, None if nothing in it turns."""
         self.limb_number, self.links = number, 0
-        return self.series(chain.elements, BASE, PLATFORM)
+        return self.series(chain.elements, chain.start, chain.end)
 
     def series(self, elements: Sequence[Element], start: str, end: str) -> FloatArray | None:
         if not elements:
