@@ -8,7 +8,6 @@ import sympy
 
 from assur.derivation.derivation import derive
 from assur.derivation.not_derived import NotDerivedError
-from assur.derivation.reasons import sentences
 from assur.derivation.solution import analytic_solution
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
@@ -175,14 +174,6 @@ def test_a_wrong_formula_of_a_link_on_an_axis_that_turns_is_noticed(tmp_path):
     wrong = solution.sets[-1].definitions[-1]
     object.__setattr__(wrong, "formula", wrong.formula * 2)
     assert not solution.closes()
-
-
-def test_bars_that_turn_against_each_other_about_three_directions_do_not_turn(tmp_path):
-    record = load_record("h4_robot")
-    solution = analytic_solution(record, "direct")
-    assert any("axes along y and x" in sentence for sentence in sentences(solution.placed))
-    assert (solution.branches, solution.eliminant.degree) == (8, 8)
-    assert solution.closes()
 
 
 @pytest.mark.deep

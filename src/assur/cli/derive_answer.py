@@ -26,7 +26,7 @@ from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
 from assur.derivation.proof import proof
 from assur.derivation.reach_meanings import ReachMeanings
-from assur.derivation.reasons import sentences
+from assur.derivation.reasons import left_out, sentences
 from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.solution_count import SECONDS, solution_count
@@ -139,7 +139,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         )
         return DerivedProblem(
             problem, "not_derived", str(error), None, None, tuple(_reasons(error.placed)), (*record.generalised,),
-            _sets(error.sets), {}, {}, resists=resists,
+            _sets(error.sets), {}, {}, resists=resists, left_out=(*left_out(error.placed),),
         )  # fmt: skip
     except NotDerivedError as error:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
@@ -149,6 +149,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         dict(_results(solution)), solution.group.sentence if solution.group else "",
         square_roots="yes" if solution.eliminant is None
         else "no" if solution.group is not None and solution.group.no_tower else "open",
+        left_out=(*left_out(solution.placed),),
     )  # fmt: skip
 
 
@@ -248,6 +249,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         if part.sets or part.reasons:
             yield ""
         yield from _end(part) if derived else _resistance(part)
+        yield from (f"left out: {text}" for text in part.left_out)
         yield from _cases(part)
         yield from _counted(part)
         yield ""

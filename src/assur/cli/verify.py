@@ -78,11 +78,12 @@ def _derivation(path: Path, content: bytes, name: str | None, start: float) -> O
     from assur.cli.output import heading
     from assur.model.registry import file_of, names
     from assur.results.answers.derivation import VerifiedDerivation, VerifiedProblem
-    from assur.verifier.derivations.check import problems_of, verify_derivation
+    from assur.verifier.derivations.check import left_out_of, problems_of, verify_derivation
     from assur.verifier.reading import MalformedError, RefusedError
 
     try:
         whose, without = problems_of(content)
+        omitted = left_out_of(content)
         if name is None and whose not in names():
             text = "the mechanism is not at hand, say with --mechanism where it is"
             return _refused(path, text, exit_codes.UNDECIDED)
@@ -96,6 +97,7 @@ def _derivation(path: Path, content: bytes, name: str | None, start: float) -> O
     )
     answer = VerifiedDerivation(True, whose, problems, without, time.perf_counter() - start)
     shown = [heading(f"verified: {path}"), *map(_proved, problems), *(f"{own}: nothing is proved" for own in without)]
+    shown += [f"{problem}: left out: {text}" for problem, texts in omitted.items() for text in texts]
     shown.append(f"identities checked exactly, with a joint graph of its own, in {answer.seconds:.2g} s")
     return Outcome(answer, lambda: shown, exit_codes.UNDECIDED if without else exit_codes.FINE)
 

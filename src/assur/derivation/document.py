@@ -10,6 +10,7 @@ from assur.derivation.phrases import listed
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
 from assur.derivation.printed_letters import joint_letter, plain
 from assur.derivation.printed_velocities import PrintedVelocities
+from assur.derivation.reasons import left_out
 from assur.derivation.written_solution import Block, WrittenFormula
 from assur.results.plain_text import signed
 from assur.topology.facts import Topology
@@ -191,7 +192,9 @@ def _velocities(own: PrintedVelocities) -> Iterator[str]:
 def _example(own: PrintedProblem) -> Iterator[str]:
     example, solution = own.example, own.written.solution
     held = CLOSE[own.closes]
-    yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}."
+    omitted = [*left_out(solution.placed)]
+    yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}{', but for what is left out' if omitted else ''}."
+    yield from (f"Left out: {plain(text)}." for text in omitted)
     if solution.eliminant is not None:
         yield "They are counted over complex numbers; how many are real depends on what is given."
     if not example.branches:

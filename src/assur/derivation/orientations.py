@@ -1,51 +1,21 @@
-"""Orientations of links, and why: which do not turn, and which turn about one fixed direction.
-
-Joints that cannot turn join links to bodies. A body that hangs on another by axes of one direction u has, against it,
-the orientation Rot(u, psi) C. If it hangs on it by axes of u and, by other joints, by axes of v as well, it cannot
-turn: Rot(u, a) C1 = Rot(v, b) C2 has one solution at most (the rule r1(u) ∩ r1(v) = r0 of the theory). The two are
-one body then, and the argument goes round again.
-"""
+"""Orientations of links: which do not turn, and which turn about one fixed direction, or about an axis that does."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-import sympy
-
+from assur.derivation.constraint_reasons import ConstraintReason, held
 from assur.derivation.exact_vectors import ExactVectors
-from assur.derivation.hinges import HOME, Hinge, RigidPair, hinges, point_on, rods_of, slides
+from assur.derivation.hinges import Hinge, hinges, point_on, rods_of, slides
 from assur.derivation.named_directions import NamedDirections
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.posed_orientation import posed_orientation
-from assur.derivation.rotations_at_home import rotations_at_home
 from assur.derivation.symbols import GivenSymbols
-from assur.joints.steps import UNTURNED, about
+from assur.derivation.turning_bodies import TurningBodies, Way
+from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
-from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed, triple
-
-
-@dataclass(frozen=True)
-class ConstraintReason:
-    """Why a link does not turn: it hangs on another by axes along two directions.
-
-    Attributes:
-        link, carrier: the two links.
-        first, second: the directions.
-        first_joints, second_joints: the joints of both chains.
-        constant: the orientation of the link against the carrier.
-        third: another direction of axes of the second chain, on its way.
-    """
-
-    link: str
-    carrier: str
-    first: Vector
-    second: Vector
-    first_joints: tuple[str, ...]
-    second_joints: tuple[str, ...]
-    constant: Matrix
-    third: Vector | None = None
+from assur.numerics.vectors import Matrix, Vector, apply, dot, product, scaled, subtract, transposed
 
 
 @dataclass(frozen=True)
@@ -64,15 +34,6 @@ class Orientation:
     rod: int | None = None
     hinge: Vector | None = None
     second: int | None = None
-
-
-@dataclass(frozen=True)
-class _Way:
-    """A direction u by whose axes a body hangs on a root, C of Rot(u, psi) C, and the joints."""
-
-    axis: Vector
-    constant: Matrix
-    joints: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,15 +77,15 @@ class _Reading:
         if (posed := posed_orientation(self.symbols)) is not None:
             joints.append(posed.pair)
         reasons: list[ConstraintReason] = []
-        bodies = self._bodies(joints)
-        while (more := self._held(self._free(joints, bodies))) is not None:
+        turning = TurningBodies(self.symbols, tuple(joints))
+        while (more := held(turning)) is not None:
             stiff, reason = more
             joints.append(stiff)
             reasons.append(reason)
-            bodies = self._bodies(joints)
-        free = self._free(joints, bodies)
+            turning = TurningBodies(self.symbols, tuple(joints))
+        free, bodies = turning.free, turning.of_links
         root, inside_root = bodies[self.record.base]
-        ways = {body: own[0] for body, own in self._ways(free, root, transposed(inside_root)).items()}
+        ways = {body: own[0] for body, own in turning.ways(root, transposed(inside_root)).items()}
         numbers = {body: number for number, body in enumerate(ways)}
         links: dict[str, Orientation] = {}
         for link, (body, inside) in bodies.items():
@@ -150,13 +111,13 @@ class _Reading:
                     links[link] = replace(orientation, constant=whole, second=number)
         missing = [link for link in self.record.links if link not in links]
         if missing:
-            held = "; ".join(
+            why = "; ".join(
                 f"{link} turns in space, held by {', '.join(joint.name for joint in self._joints_of(link))}"
                 for link in missing
             )
             raise NotDerivedError(
                 f"{', '.join(missing)}: neither fixed in orientation, nor turning about one direction or about an axis "
-                f"that does: {held}"
+                f"that does: {why}"
             )
         shared = [turn for turn in free if {turn.parent, turn.child} <= links.keys()]
         named = NamedDirections(self.symbols, posed.definitions if posed else ())
@@ -180,146 +141,10 @@ class _Reading:
                 return turn.child, replace(carrier, constant=constant, hinge=hinge)
         return None
 
-    def _bodies(self, joints: Sequence[RigidPair | Hinge]) -> dict[str, tuple[str, Matrix]]:
-        """Link -> its body, called by its first link, and the link's orientation in it."""
-        named = (link for joint in joints for link in (joint.parent, joint.child))
-        links = dict.fromkeys((self.record.base, *named, *self.record.links))
-        stiff = [joint for joint in joints if isinstance(joint, RigidPair)]
-        bodies: dict[str, tuple[str, Matrix]] = {}
-        for link in links:
-            if link in bodies:
-                continue
-            bodies[link] = (link, UNTURNED)
-            waiting = [link]
-            for near in waiting:
-                for joint in stiff:
-                    for start, end, after in (
-                        (joint.parent, joint.child, joint.after),
-                        (joint.child, joint.parent, transposed(joint.after)),
-                    ):
-                        if start != near:
-                            continue
-                        inside = self.exact.tidy(product(bodies[near][1], after))
-                        if end not in bodies:
-                            bodies[end] = (link, inside)
-                            waiting.append(end)
-                        elif not self.exact.equal(bodies[end][1], inside):
-                            raise NotDerivedError(f"the orientation of {end} is given twice, in two ways")
-        return bodies
-
-    def _free(self, joints: Sequence[RigidPair | Hinge], bodies: Mapping[str, tuple[str, Matrix]]) -> list[Hinge]:
-        free = []
-        for joint in joints:
-            if isinstance(joint, Hinge):
-                (first, inside), (second, other) = bodies[joint.parent], bodies[joint.child]
-                if first != second:
-                    after = self.exact.tidy(product(product(inside, joint.after), transposed(other)))
-                    axis = self.exact.tidied(apply(inside, joint.axis))
-                    free.append(Hinge(first, second, after, axis, joint.joints))
-        return free
-
-    def _ways(self, free: Sequence[Hinge], root: str, rotation: Matrix) -> dict[str, list[_Way]]:
-        """For each body, the directions by whose axes alone it hangs on the root, whose orientation is given."""
-        both = [*free, *(turn.back for turn in free)]
-        directions: list[Vector] = []
-        for turn in both:
-            axis = self.exact.upright(self.exact.tidied(apply(rotation, turn.axis)))
-            if turn.parent == root and not any(self.exact.along(axis, other) for other in directions):
-                directions.append(axis)
-        ways: dict[str, list[_Way]] = {}
-        for axis in directions:
-            reached: dict[str, tuple[Matrix, tuple[str, ...]]] = {root: (rotation, ())}
-            waiting = [root]
-            for near in waiting:
-                own, joints = reached[near]
-                for turn in both:
-                    if (
-                        turn.parent == near
-                        and turn.child not in reached
-                        and self.exact.along(apply(own, turn.axis), axis)
-                    ):
-                        reached[turn.child] = self.exact.tidy(product(own, turn.after)), (*joints, *turn.joints)
-                        waiting.append(turn.child)
-            for body in waiting[1:]:
-                constant, joints = reached[body]
-                ways.setdefault(body, []).append(_Way(axis, self._unturned(constant, axis), joints))
-        return ways
-
-    def _unturned(self, constant: Matrix, axis: Vector) -> Matrix:
-        """C of Rot(u, psi) C without turns about u by what is given, which psi has in it."""
-        zero = {
-            symbol: number for circle in self.symbols.circles for symbol, number in zip(circle, (1, 0), strict=True)
-        }
-        a, b, c = (tuple(sympy.sympify(part).subs(zero) for part in row) for row in constant)
-        plain = self.exact.tidy((a, b, c))
-        turned = apply(product(constant, transposed(plain)), axis)
-        return plain if all(map(self.witness.is_zero, subtract(turned, axis))) else constant
-
-    def _held(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
-        return self._held_together(free) or self._triangle(free)
-
-    def _triangle(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
-        """Two bodies that turn against a third about u and v, and against each other about w, so not at all.
-
-        Rot(u, a) Rot(w, c) = Rot(v, b) has two solutions where the three directions are independent, one of them as
-        the links stand where all angles are zero.
-        """
-        bodies = dict.fromkeys(body for turn in free for body in (turn.parent, turn.child))
-        for root in bodies:
-            ways = {body: own[0] for body, own in self._ways(free, root, UNTURNED).items()}
-            for body, first in ways.items():
-                inner = self._ways(free, body, first.constant)
-                for other, second in ways.items():
-                    for between in inner.get(other, ()):
-                        volume = triple(first.axis, second.axis, between.axis)
-                        fits = self.exact.equal(between.constant, second.constant)
-                        if not self.witness.is_zero(volume) and fits and self._as_at_home(root, body, first):
-                            axes = first.axis, between.axis
-                            joints = (*second.joints, *between.joints)
-                            reason = ConstraintReason(
-                                body, root, *axes, first.joints, joints, first.constant, second.axis
-                            )
-                            return RigidPair(root, body, first.constant, ()), reason
-        return None
-
-    def _as_at_home(self, root: str, body: str, way: _Way) -> bool:
-        """Whether a body stands at home as if it had not turned."""
-        rotations = rotations_at_home(self.record)
-        if not {root, body} <= rotations.keys() or any(
-            sympy.sympify(part).free_symbols for row in way.constant for part in row
-        ):
-            return False
-        apart = rotations[root].T @ rotations[body] - np.array(sympy.Matrix(way.constant).evalf(30), dtype=float)
-        return bool(np.max(np.abs(apart)) < HOME)
-
-    def _held_together(self, free: Sequence[Hinge]) -> tuple[RigidPair, ConstraintReason] | None:
-        """Two bodies that turn against each other about two directions, so not at all."""
-        for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
-            for body, ways in self._ways(free, root, UNTURNED).items():
-                if len(ways) > 1:
-                    first, second = ways[:2]
-                    after = self._meeting(first, second, body)
-                    reason = ConstraintReason(body, root, first.axis, second.axis, first.joints, second.joints, after)
-                    return RigidPair(root, body, after, ()), reason
-        return None
-
-    def _meeting(self, first: _Way, second: _Way, body: str) -> Matrix:
-        """Rot(u, a) C1 = Rot(v, b) C2."""
-        u, v = first.axis, second.axis
-        between = apply(product(first.constant, transposed(second.constant)), v)
-        if not self.witness.is_zero(dot(u, between) - dot(u, v)):
-            raise NotDerivedError(f"{body} cannot have the orientation that its joints ask for")
-        if all(self.witness.is_zero(a - b) for a, b in zip(between, v, strict=True)):
-            return first.constant
-        share = dot(u, v)
-        size = 1 - share**2
-        cosine, sine = (dot(between, v) - share**2) / size, dot(u, cross(between, v)) / size
-        return self.exact.tidy(product(about(u, sympy.simplify(cosine), sympy.simplify(sine)), first.constant))
-
-    def _hinged(self, free: Sequence[Hinge], ways: Mapping[str, _Way]) -> dict[str, tuple[_Way, Vector, Matrix]]:
+    def _hinged(self, free: Sequence[Hinge], ways: Mapping[str, Way]) -> dict[str, tuple[Way, Vector, Matrix]]:
         """Rods on hinges: how what carries them turns, the hinge's direction and C, both where its psi is zero."""
         self._carrier: dict[str, str] = {}
-        hinged: dict[str, tuple[_Way, Vector, Matrix]] = {}
+        hinged: dict[str, tuple[Way, Vector, Matrix]] = {}
         both = [*free, *(turn.back for turn in free)]
         for turn in both:
             if turn.parent not in ways or turn.child in ways or turn.child in hinged:

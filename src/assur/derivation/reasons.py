@@ -1,10 +1,13 @@
-"""Reasons in words: why a link does not turn."""
+"""Reasons in words: why a link does not turn, and in which other way some of them could stand."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from assur.derivation.orientations import ConstraintReason, LinkOrientations
+import sympy
+
+from assur.derivation.constraint_reasons import ConstraintReason
+from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
 from assur.numerics.vectors import Vector
 
@@ -20,6 +23,29 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
     for reason in placed.reasons:
         first, second = (_chain(reason, *way) for way in ((reason.first, True), (reason.second, False)))
         yield f"{reason.link} hangs on {reason.carrier} by {first} and by {second}, so it does not turn against it"
+
+
+def left_out(placed: LinkOrientations) -> Iterator[str]:
+    """One sentence for each link that is taken to stand as at home, though its axes close in another way too.
+
+    >>> from assur.derivation.solution import analytic_solution
+    >>> from assur.model.registry import load_record
+    >>> print(*left_out(analytic_solution(load_record("h4_robot"), "direct").placed))
+    bar2 is taken to stand against bar1 as at home; it may also stand turned by half a turn about z
+    """
+    for reason in placed.reasons:
+        if reason.other_way is not None:
+            turned = f"{_turned(*reason.other_way)} about {direction(reason.first)}"
+            yield f"{reason.link} is taken to stand against {reason.carrier} as at home; it may also stand turned {turned}"
+
+
+def _turned(cosine: sympy.Expr, sine: sympy.Expr) -> str:
+    """By which angle."""
+    if cosine == -1:
+        return "by half a turn"
+    if cosine.is_number:
+        return f"by {float(sympy.deg(sympy.atan2(sine, cosine))):.4g} deg"
+    return f"by the angle whose cosine is {cosine}"
 
 
 def _chain(reason: ConstraintReason, axis: Vector, first: bool) -> str:

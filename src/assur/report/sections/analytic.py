@@ -8,7 +8,7 @@ from assur.derivation.formula_latex import width
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.printed_derivation import PrintedProblem, printed_derivation
 from assur.derivation.printed_velocities import PrintedVelocities
-from assur.derivation.reasons import sentences
+from assur.derivation.reasons import left_out, sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.written_solution import WrittenFormula, WrittenPart
 from assur.kinematics.modes import Problem
@@ -52,6 +52,8 @@ def _problem(own: PrintedProblem) -> Section:
     results: list[Result | Section] = []
     if reasons := [*sentences(solution.placed)]:
         results.append(Facts("Links that do not turn", tuple((str(k), text) for k, text in enumerate(reasons, 1))))
+    if omitted := [*left_out(solution.placed)]:
+        results.append(Facts("Left out", tuple((str(k), text) for k, text in enumerate(omitted, 1))))
     results += [formulas for part in own.written.parts() for formulas in _formulas(part)]
     return Section(
         f"The {own.problem} problem by formulas",

@@ -185,7 +185,7 @@ class DerivedProblem:
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
-    parallelograms that stay such; `lengths` are found after the sets. `proof` is there where it is asked for, or
+    parallelograms that stay such; `left_out` says of links in which other way they may stand; `lengths` are found after the sets. `proof` is there where it is asked for, or
     `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
     that is not solved; `count` the number of solutions, found without any of the elimination;
     `closed` what holds where conditions do not, derived modulo a prime.
@@ -208,6 +208,7 @@ class DerivedProblem:
     resists: ResistingSet | Absent = ABSENT
     count: CountedSolutions | Absent = ABSENT
     closed: tuple[DerivedCase, ...] | Absent = ABSENT
+    left_out: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,15 @@ def problems_of(data: bytes) -> tuple[str, tuple[str, ...]]:
     return printable(document["mechanism"]), tuple(map(printable, without))
 
 
+def left_out_of(data: bytes) -> dict[str, tuple[str, ...]]:
+    """Problem -> in which other ways links may stand, as the derivation says. Errors: MalformedError."""
+    problems = _read(data)["problems"]
+    try:
+        return {printable(own["problem"]): tuple(map(printable, own.get("left_out", ()))) for own in problems}
+    except (ValueError, TypeError) as error:
+        raise MalformedError(f"no derivation: {error}") from error
+
+
 def verify_derivation(data: bytes, text: str) -> list[ProvedProblem]:
     """Check a derivation against a mechanism's file: what is proved of each problem that has identities.
 
