@@ -234,10 +234,24 @@ class ClosedFormText(ClosedFormParts):
         """Angles of the carrier and of the hinge of a link that points somewhere."""
         (a, b), (c, d) = own.carrier, own.hinge
         ahead, beside = (self.printer.doprint(-part if own.back else part) for part in (own.ahead, own.beside))
-        along = self.printer.doprint(own.along)
+        along = self.printer.doprint(own.along / own.level)
+        if own.lean != 0:
+            yield from self._upright(own, ahead, beside)
+            ahead, beside = f"{c}_ahead", f"{c}_beside"
         yield f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)"
         if own.back:
             yield f"    {c} = -{c}"
+
+    def _upright(self, own: Pointing, ahead: str, beside: str) -> Iterator[str]:
+        """Lines that make of a rod that leans along its hinge one across it, on the same carrier."""
+        name, lean = own.hinge[0], self.printer.doprint(-own.lean if own.back else own.lean)
+        x, y, square, across, share = (f"{name}_{part}" for part in ("x", "y", "square", "across", "share"))
+        yield f"    {x}, {y} = {ahead}, {beside}"
+        yield f"    {square} = {x} * {x} + {y} * {y}"
+        yield f"    {across} = ns.sqrt({square} - ({lean}) * ({lean}))"
+        yield f"    {share} = {across} / ({square} * ({self.printer.doprint(own.level)}))"
+        yield f"    {name}_ahead = {share} * ({x} * {across} + {y} * ({lean}))"
+        yield f"    {name}_beside = {share} * ({y} * {across} - {x} * ({lean}))"
 
     def _joints(self) -> str:
         flat: list[Any] = []

@@ -193,7 +193,8 @@ def _example(own: PrintedProblem) -> Iterator[str]:
     example, solution = own.example, own.written.solution
     held = CLOSE[own.closes]
     omitted = [*left_out(solution.placed)]
-    yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}{', but for what is left out' if omitted else ''}."
+    held += ", but for what is left out" if omitted else ""
+    yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}."
     yield from (f"Left out: {plain(text)}." for text in omitted)
     if solution.eliminant is not None:
         yield "They are counted over complex numbers; how many are real depends on what is given."

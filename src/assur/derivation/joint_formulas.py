@@ -30,6 +30,7 @@ class Pointing:
         carrier, hinge: cosine and sine of both angles.
         ahead, beside, along: parts of the direction, as `assur.numerics.legs.pointing` takes them.
         back: whether the hinge's cosine is negative at home, so that everywhere.
+        lean, level: sine and cosine of the angle of the rod from the plane across its hinge.
     """
 
     carrier: Pair
@@ -38,6 +39,8 @@ class Pointing:
     beside: sympy.Expr
     along: sympy.Expr
     back: bool
+    lean: sympy.Expr
+    level: sympy.Expr
 
 
 @dataclass(frozen=True)
@@ -177,7 +180,7 @@ class _Joints:
         """The hinge's angle, less that of the rod's line at zero."""
         line, across = own.line or (0, 0, 0), cross(own.hinge or (0, 0, 0), own.axis or (0, 0, 0))
         cosine, sine = dot(line, across), scaled(own.axis or (0, 0, 0), -1)
-        start = cosine, dot(line, sine)
+        start = cosine / pointing.level, dot(line, sine) / pointing.level
         c, s = pointing.hinge
         return c * start[0] + s * start[1], s * start[0] - c * start[1]
 
@@ -219,7 +222,10 @@ class _Joints:
                 f"sin_{direction.name}",
             )
             c, s, k, t = sympy.symbols(names, real=True)
-            pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back)
+            lean = dot(own.line or (0, 0, 0), own.hinge)
+            lean = sympy.Integer(0) if witness.is_zero(lean) else sympy.simplify(lean)
+            level = sympy.sqrt(sympy.factor_terms(sympy.simplify(1 - lean**2)))
+            pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back, lean, level)
         self.pointings += pointings.values()
         return pointings
 

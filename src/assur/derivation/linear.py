@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import combinations
 
 import sympy
 
@@ -106,7 +107,8 @@ def projected(
     """Lengths as forms of what is left, and what is left of the equations, each projected on its own coefficients.
 
     A length along a unit vector a has the coefficients a in three equations: a of these is it, whatever a is. Where one
-    of them is a number, the shortest such equation says it alone.
+    of them is a number, the shortest such equation says it alone. Where a turns, the square of a is not written as 1 in
+    what is left: so factors of a are seen that all of an equation shares.
 
     Errors:
         NotDerivedError: a length that no equation is left for.
@@ -118,8 +120,11 @@ def projected(
     left, values = list(forms), dict[sympy.Symbol, Form]()
     for length in lengths:
         rows = [form for form in left if length in form]
+        unit = _along_unit_vector(rows, length, witness)
+        rows = unit or rows
+        left = [form if form in unit else _without(form, length, unit, witness) for form in left]
         pivot: Form = {}
-        alone = [row for row in rows if row[length].is_number]
+        alone = [] if unit else [row for row in rows if row[length].is_number]
         for row in [min(alone, key=_size)] if alone else rows:
             pivot = combined(pivot, row[length], row, witness)
         if length not in pivot:
@@ -129,8 +134,29 @@ def projected(
         size = sympy.simplify(pivot[length])
         own = {key: tidy(-part / size) for key, part in pivot.items() if key != length}
         left = [form for form in (replaced(form, {length: own}, witness) for form in left) if form]
+        if unit:
+            own = {key: tidy(-part) for key, part in pivot.items() if key != length}
         values = {key: replaced(form, {length: own}, witness) for key, form in values.items()} | {length: own}
     return values, left
+
+
+def _along_unit_vector(rows: Sequence[Form], length: sympy.Symbol, witness: ModularWitness) -> list[Form]:
+    """Rows, three at most, in which a length has the components of a unit vector that is no number, or none."""
+    for count in range(1, 4):
+        for own in combinations(sorted(rows, key=len), count):
+            turning = any(row[length].free_symbols for row in own)
+            if turning and witness.is_zero(sum((row[length] ** 2 for row in own), -ONE)):
+                return [*own]
+    return []
+
+
+def _without(form: Form, length: sympy.Symbol, rows: Sequence[Form], witness: ModularWitness) -> Form:
+    """A form less a number times one of some rows, if that takes a length out of it."""
+    for row in rows if length in form else ():
+        share = tidy(-form[length] / row[length])
+        if share.is_number:
+            return combined(form, share, row, witness)
+    return form
 
 
 def divided(row: Form) -> Form:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import sympy
 
-from assur.derivation.linear import ONE, Form, projected, rank, replaced, solved, tidy, value_of
+from assur.derivation.linear import ONE, Form, divided, never_zero, projected, rank, replaced, solved, tidy, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
@@ -23,7 +23,8 @@ class LinearSpan:
     """Sums of multiples of linear equations.
 
     Args:
-        rows: name of an equation -> its form, that vanishes; one that follows of those before it is left out.
+        rows: name of an equation -> its form, that vanishes; one that follows of those before it is left out, but for
+            those that a length along a vector that turns is projected by.
         unknowns: whose coefficients are compared one by one; all else is known.
         witness: tells what vanishes.
         lengths: unknowns along unit vectors, whose equations are projected on these first: then nothing is divided.
@@ -44,7 +45,8 @@ class LinearSpan:
         self._witness, self._unknowns, self._lengths = witness, unknowns, lengths
         self._rows: dict[str, Form] = {}
         for name, form in rows.items():
-            if not self._spanned(form, self._rows):
+            turned = any(form[own].free_symbols for own in lengths if own in form)
+            if turned or not self._spanned(form, self._rows):
                 self._rows[name] = form
 
     def multipliers(self, target: Form) -> Multipliers:
@@ -56,12 +58,20 @@ class LinearSpan:
             fewer = {other: form for other, form in rows.items() if other != name}
             if self._spanned(target, fewer):
                 rows = fewer
+        shares = self._shares(target, rows)
+        if self._lengths and len(rows) < len(self._rows) and _divides(shares):
+            whole = self._shares(target, self._rows)
+            return shares if _divides(whole) else whole
+        return shares
+
+    def _shares(self, target: Form, rows: Mapping[str, Form]) -> Multipliers:
+        """Multipliers of some of the equations, of which a form follows."""
         tags = {sympy.Dummy(name): name for name in rows}
         tagged = [{**form, tag: -ONE} for tag, form in zip(tags, rows.values(), strict=True)]
         lengths, left = projected(
             tagged, [own for own in self._lengths if any(own in form for form in tagged)], self._witness
         )
-        values, _ = solved(left, self._unknowns, self._witness)
+        values, _ = solved(map(divided, left) if lengths else left, self._unknowns, self._witness)
         values = {length: replaced(form, values, self._witness) for length, form in lengths.items()} | values
         rest = replaced(target, values, self._witness)
         known = value_of({key: part for key, part in rest.items() if key not in tags})
@@ -73,6 +83,11 @@ class LinearSpan:
         """Whether the coefficients of unknowns are those of a sum of multiples of rows."""
         keys, forms = (*self._lengths, *self._unknowns), [*rows.values()]
         return rank([*forms, target], keys, self._witness) == rank(forms, keys, self._witness)
+
+
+def _divides(shares: Multipliers) -> bool:
+    """Whether a multiplier is divided by what may vanish."""
+    return not all(never_zero(sympy.fraction(sympy.together(share))[1]) for share in shares.values())
 
 
 def _plain(share: sympy.Expr) -> sympy.Expr:

@@ -3,6 +3,9 @@
 Axes that links share which turn about different directions are one: three equations more. A link on an axis that turns
 itself is turned by two circles; the one that carries the axis is a coefficient then.
 
+Where several joints slide on one link that turns, the loops through them are written in its frame, in which their
+directions stand still.
+
 A loop is a sum of vectors from joint to joint, each fixed in a link. One in a link that turns about u is
 w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction. What is not linear belongs to
 one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
@@ -25,7 +28,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
 from assur.joint_graph.tree import joint_graph
-from assur.joints.steps import UNTURNED
+from assur.joints.steps import UNTURNED, about
 from assur.model.mechanism import Joint
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract, transposed
@@ -70,6 +73,7 @@ class LoopEquations:
         point: the platform's point as linear forms.
         relations: dimensions that follow from others, without which no loop closes.
         carriers: circles of links that carry axes of other links which turn. They are coefficients.
+        framed: circles of links in whose frame loops are written, as several joints slide on each.
     """
 
     forms: tuple[Form, ...]
@@ -80,6 +84,7 @@ class LoopEquations:
     relations: tuple[Definition, ...] = ()
     carriers: tuple[UnknownDirection, ...] = ()
     axes: int = 0
+    framed: tuple[UnknownDirection, ...] = ()
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -110,18 +115,20 @@ class _Loops:
             gaps.append(subtract(reached, self._place(joint.child, end, point)))
         platform = self._place(self.record.platform.link, self.symbols.geometry.platform, point)
         shared = [part for turn in self.placed.hinges for part in self._apart(turn)]
+        framed = self._framed()
+        gaps = [self._in_frame(gap, framed) for gap in gaps]
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
         used = {symbol for row in (*shared, *rows, *platform) for symbol in sympy.sympify(row).free_symbols}
         directions = [
             direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
         ]
-        forms = [self._form(row, directions) for row in rows]
-        unknowns = [length for length in self.lengths.values() if length not in self.strokes]
+        forms = [self._form(row, directions, framed) for row in rows]
+        unknowns = self._plain_lengths(framed)
         unknowns += [unknown for direction in directions for unknown in direction.unknowns]
         relations = () if self._seconds else dimension_relations(self.symbols, forms, unknowns)
         if relations:
-            forms = [self._form(row, directions) for row in rows]
+            forms = [self._form(row, directions, framed) for row in rows]
         x, y, z = (self._form(part, directions) for part in platform)
         axes = [form for row in shared if (form := self._form(row, directions))]
         own = [form for form in forms if form]
@@ -131,20 +138,52 @@ class _Loops:
             tuple(directions),
             dict(self.lengths),
             (x, y, z),
-            dict(self.strokes),
+            {length: own for length, own in self.strokes.items() if own not in framed},
             relations,
             carriers,
             len(axes),
+            framed,
         )
 
-    def _form(self, row: sympy.Expr, directions: Sequence[UnknownDirection]) -> Form:
+    def _framed(self) -> tuple[UnknownDirection, ...]:
+        """Circles of links on which several joints slide."""
+        circles = [own for own in self.strokes.values() if own.kind == "circle"]
+        return tuple(own for own in dict.fromkeys(circles) if circles.count(own) > 1)
+
+    def _in_frame(self, gap: Vector, framed: Sequence[UnknownDirection]) -> Vector:
+        """A loop in the frame of the link along whose directions its lengths run. Errors: NotDerivedError."""
+        used = {symbol for part in gap for symbol in sympy.sympify(part).free_symbols}
+        circles = {own for length, own in self.strokes.items() if length in used and own in framed}
+        if not circles:
+            return gap
+        if len(circles) > 1:
+            names = " and ".join(sorted(own.name for own in circles))
+            raise NotDerivedError(f"joints slide on {names}, which turn, several on each")
+        (own,) = circles
+        cosine, sine = own.unknowns
+        back = apply(about(self.placed.links[own.links[0]].axis or (0, 0, 0), cosine, -sine), gap)
+        x, y, z = (sympy.expand(sympy.expand(part).subs(sine**2, 1 - cosine**2)) for part in back)
+        return x, y, z
+
+    def _plain_lengths(self, framed: Sequence[UnknownDirection]) -> list[sympy.Symbol]:
+        """Lengths in which the loops are linear."""
+        return [length for length in self.lengths.values() if self.strokes.get(length) in (None, *framed)]
+
+    def _form(
+        self, row: sympy.Expr, directions: Sequence[UnknownDirection], framed: Sequence[UnknownDirection] = ()
+    ) -> Form:
         """Linear in all unknowns, or where links are turned by two circles in those of the second ones."""
-        unknowns = [length for length in self.lengths.values() if length not in self.strokes]
+        unknowns = self._plain_lengths(framed)
         symbols = sympy.sympify(row).free_symbols
         twice = any(symbols & {*own.unknowns} for own in self._seconds)
         kept = [own for own in directions if not (twice and own in self._carriers)]
         unknowns += [unknown for direction in kept for unknown in direction.unknowns]
-        return form_of(row, unknowns, self.symbols.witness)
+        form = form_of(row, unknowns, self.symbols.witness)
+        beside = {symbol for part in form.values() for symbol in part.free_symbols} & {*unknowns}
+        if framed and beside:
+            names = " and ".join(own.name for own in framed)
+            raise NotDerivedError(f"several joints slide on {names}, which turns, in loops with other links that turn")
+        return form
 
     @cached_property
     def _seconds(self) -> list[UnknownDirection]:
@@ -264,7 +303,7 @@ class _Loops:
             raise NotDerivedError(
                 f"{joint.name} slides on a link that turns, not across the axis of its turns, nor along its line"
             )
-        if circle in self.strokes.values():
+        if circle.kind == "rod" and circle in self.strokes.values():
             raise NotDerivedError(f"{joint.name} slides on a link that turns, beside another slider")
         return circle
 
@@ -302,14 +341,15 @@ class _Loops:
         return self.placed.named.vector(vector) if any(map(self.placed.named.turned, axis)) else vector
 
     def _along(self, link: str, own: Orientation, vector: Vector) -> Vector:
-        line, hinge = own.line or (0, 0, 0), own.hinge or (0, 0, 0)
-        share, beside = dot(line, vector), dot(hinge, vector)
+        line, hinge, is_zero = own.line or (0, 0, 0), own.hinge or (0, 0, 0), self.symbols.witness.is_zero
+        across = is_zero(dot(line, hinge))
+        share, beside = dot(line, vector), dot(hinge, vector) if across else 0
         in_plane = add(scaled(line, share), scaled(hinge, beside))
-        if not all(map(self.symbols.witness.is_zero, subtract(vector, in_plane))):
+        if not all(map(is_zero, subtract(vector, in_plane))):
             raise NotDerivedError(f"{link} is no straight rod")
         ex, ey, ez = self.rods[own.rod or 0].unknowns
         along = scaled((ex, ey, ez), sympy.simplify(share))
-        return along if self.symbols.witness.is_zero(beside) else add(along, scaled(self._turned(own, hinge), beside))
+        return along if is_zero(beside) else add(along, scaled(self._turned(own, hinge), beside))
 
     def _tidied(self, vector: Vector) -> Vector:
         x, y, z = (0 if self.symbols.witness.is_zero(part) else sympy.expand(part) for part in vector)

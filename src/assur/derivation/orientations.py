@@ -15,7 +15,7 @@ from assur.derivation.symbols import GivenSymbols
 from assur.derivation.turning_bodies import TurningBodies, Way
 from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
-from assur.numerics.vectors import Matrix, Vector, apply, dot, product, scaled, subtract, transposed
+from assur.numerics.vectors import Matrix, Vector, apply, dot, product, subtract, transposed
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,8 @@ class Orientation:
     """Rot(axis, psi) constant; psi of circle number `circle`. Fixed where there is no axis.
 
     A rod has the number `rod`, which rods that stay parallel share, and a direction `line` in the frame of `constant`.
-    It lies between ball joints, or on a hinge across the axis about which what carries it turns:
-    Rot(axis, psi) Rot(hinge, phi) constant. Another link on a hinge has phi of circle number `second`.
+    It lies between ball joints, or on a hinge across the axis about which what carries it turns, across that hinge or
+    oblique to it: Rot(axis, psi) Rot(hinge, phi) constant. Another link on a hinge has phi of circle number `second`.
     """
 
     constant: Matrix = UNTURNED
@@ -96,7 +96,7 @@ class _Reading:
                 links[link] = Orientation(product(way.constant, inside), way.axis, numbers[body])
         hinged = self._hinged(free, ways)
         for number, (body, (way, hinge, constant)) in enumerate(hinged.items()):
-            line = self._across(body, self._side(body, bodies), constant, hinge)
+            line = self._reach(body, self._side(body, bodies), constant, hinge)
             for link, (own, inside) in bodies.items():
                 if own == body:
                     whole = self.exact.tidy(product(constant, inside))
@@ -176,15 +176,14 @@ class _Reading:
     def _joints_of(self, link: str) -> list[Joint]:
         return [joint for joint in self.record.joints.values() if link in (joint.parent, joint.child)]
 
-    def _across(self, body: str, side: Vector | None, constant: Matrix, hinge: Vector) -> Vector:
-        """The direction of a rod across its hinge, where psi and phi are zero; along the hinge it may reach too."""
+    def _reach(self, body: str, side: Vector | None, constant: Matrix, hinge: Vector) -> Vector:
+        """The direction in which a rod reaches, across its hinge or oblique to it, where psi and phi are zero."""
         if side is None:
             raise NotDerivedError(f"{body}: all its joints have one point, so it has no direction")
         along = apply(constant, side)
-        across = self.exact.tidied(subtract(along, scaled(hinge, dot(along, hinge))))
-        if not any(across):
+        if self.exact.along(along, hinge):
             raise NotDerivedError(f"{body} reaches along its hinge alone")
-        return self.exact.tidied(self.exact.unit(across))
+        return self.exact.tidied(self.exact.unit(along))
 
     def _rods(
         self, links: Mapping[str, Orientation], bodies: Mapping[str, tuple[str, Matrix]], first_number: int

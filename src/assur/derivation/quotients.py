@@ -35,13 +35,15 @@ def primitive(formulas: Sequence[sympy.Expr]) -> list[sympy.Expr]:
     >>> a, y = sympy.symbols("a y")
     >>> primitive([2 * a / y, a])
     [2, y]
+    >>> primitive([a * y + sympy.sqrt(3) * y**2, a**2 - 3 * y**2])
+    [y, a - sqrt(3)*y]
     """
     field = RationalFunctions.of(formulas)
     fractions = [field.fraction(formula) for formula in formulas]
     scale = reduce(_common_multiple, (under for _, under in fractions))
     whole = [field.reduced(over * (scale / under)) for over, under in fractions]
     shared = reduce(lambda a, b: a.gcd(b), whole)
-    parts = [part / shared for part in whole] if shared != 0 else whole
+    parts = field.without_shared([part / shared for part in whole]) if shared != 0 else whole
     factor = _content(coefficient for part in parts for coefficient in part.coeffs())
     return [field.polynomial(part / factor) for part in parts]
 
@@ -110,6 +112,37 @@ class RationalFunctions:
                     terms[key] = terms.get(key, fmpq(0)) + factor * square**count
                 own = self.ring.from_dict(terms)
         return own
+
+    def without_shared(self, parts: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
+        """Polynomials without factors with roots of numbers in them that all share, as a short one of them shows."""
+        left = [*parts]
+        short = min((part for part in left if self._roots(part)), key=len, default=None)
+        for factor, _ in short.factor()[1] if short is not None else ():
+            while self._roots(factor) and not self._is_number(factor):
+                shorter = [self._divided(part, factor) for part in left]
+                if any(part is None for part in shorter):
+                    break
+                left = [part for part in shorter if part is not None]
+        return left
+
+    def _roots(self, own: fmpq_mpoly) -> list[int]:
+        """Places of the roots of numbers that occur in a polynomial."""
+        powers = own.degrees()
+        places = (k for k, generator in enumerate(self.generators) if powers[k])
+        return [k for k in places if self.generators[k].is_Pow and self.generators[k].base.is_Rational]
+
+    def _is_number(self, own: fmpq_mpoly) -> bool:
+        return sum(map(bool, own.degrees())) == len(self._roots(own))
+
+    def _divided(self, own: fmpq_mpoly, factor: fmpq_mpoly) -> fmpq_mpoly | None:
+        """A polynomial over another, where that divides it: both times the conjugates, which have no roots below."""
+        over, under = own, factor
+        while roots := self._roots(under):
+            place = roots[0]
+            terms = {powers: part * (-1) ** int(powers[place]) for powers, part in under.to_dict().items()}
+            other = self.ring.from_dict(terms)
+            over, under = self.reduced(over * other), self.reduced(under * other)
+        return over / under if over.gcd(under) * under.leading_coefficient() == under else None
 
     def _lowest(self, over: fmpq_mpoly, under: fmpq_mpoly) -> Fraction:
         over, under = self.reduced(over), self.reduced(under)

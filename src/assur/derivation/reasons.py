@@ -35,8 +35,8 @@ def left_out(placed: LinkOrientations) -> Iterator[str]:
     """
     for reason in placed.reasons:
         if reason.other_way is not None:
-            turned = f"{_turned(*reason.other_way)} about {direction(reason.first)}"
-            yield f"{reason.link} is taken to stand against {reason.carrier} as at home; it may also stand turned {turned}"
+            own = f"{reason.link} is taken to stand against {reason.carrier} as at home"
+            yield f"{own}; it may also stand turned {_turned(*reason.other_way)} about {direction(reason.first)}"
 
 
 def _turned(cosine: sympy.Expr, sine: sympy.Expr) -> str:

@@ -22,6 +22,7 @@ from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets_in_order import SetProblem
 from assur.derivation.strokes import stroke_vectors
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.trigonometric import reduced
 from assur.derivation.witness import ModularWitness, NoResidueRootError
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
@@ -160,8 +161,13 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
     fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
     axes, forms = forms[: loops.axes], _more_than(forms[: loops.axes], forms[loops.axes :], loops, witness)
-    lengths, short = projected(sparse(forms, witness), fixed, witness)
-    short = [*axes, *sparse([divided(form) for form in short], witness)]
+    given = {symbol for circle in symbols.circles for symbol in circle}
+    turned = any(form[length].free_symbols & given for form in forms for length in fixed if length in form)
+    lengths, short = projected(
+        forms if turned else sparse(forms, witness, everywhere=bool(loops.framed)), fixed, witness
+    )
+    lengths = {length: _shorter(form, symbols) for length, form in lengths.items()}
+    short = [*axes, *sparse([divided(_shorter(form, symbols)) for form in short], witness)]
     sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
     backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
     for own in backward:
@@ -178,6 +184,16 @@ def _without_unknowns(form: Form, sets: Sequence[SolvedSet], witness: ModularWit
         return form
     values, _ = solved(rows, unknowns, witness)
     return {key: part for key, part in replaced(form, values, witness).items() if key not in unknowns}
+
+
+def _shorter(form: Form, symbols: GivenSymbols) -> Form:
+    """Coefficients modulo cos^2 + sin^2 = 1 of what is given, where they are shorter so."""
+    short = dict(form)
+    for circle in symbols.circles:
+        whole = {key: part for key, part in short.items() if part.has(*circle) and part.is_polynomial(*circle)}
+        plain = {key: reduced(part, circle, symbols.witness) for key, part in whole.items()}
+        short |= {key: min(short[key], part, key=sympy.count_ops) for key, part in plain.items()}
+    return short
 
 
 def _more_than(

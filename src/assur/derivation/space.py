@@ -40,5 +40,7 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
         yield "axes that links share which turn in space"
     if any(own.kind == "rod" for own in loops.strokes.values()):
         yield "rods whose length is sought"
+    if loops.framed:
+        yield "loops in the frame of a link that turns"
     if any(own.third is not None for own in placed.reasons):
         yield "links that do not turn because three directions close"

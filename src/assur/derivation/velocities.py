@@ -79,12 +79,18 @@ class _Velocities:
         while True:
             jp = sympy.Matrix([[row.get(rate, 0) for rate in self.pose] for row in rows])
             jq = sympy.Matrix([[-row.get(rate, 0) for rate in self.inputs] for row in rows])
-            parallel, serial = factors_of(jp), factors_of(jq)
+            parallel, serial = (self._on_given_circles(factors_of(own)) for own in (jp, jq))
             shared = {base for base, _ in parallel} & {base for base, _ in serial if base.free_symbols} - looked_at
             better = self._regular(rows, shared) if shared and not looked_at else None
             if better is None:
                 return VelocityEquations(jp, jq, parallel, serial)
             looked_at, rows = shared, better
+
+    def _on_given_circles(self, factors: tuple[tuple[sympy.Expr, int], ...]) -> tuple[tuple[sympy.Expr, int], ...]:
+        """Factors without those that are sums of the squares of a cosine and its sine."""
+        plain = [(self._on_circles(base), power) for base, power in factors]
+        number = sympy.prod([base**power for base, power in plain if base.is_number])
+        return ((number, 1), *((base, power) for base, power in plain if not base.is_number))
 
     def _regular(self, rows: list[Form], shared: set[sympy.Expr]) -> list[Form] | None:
         """Equations two of which were multiples of each other where a shared factor vanishes; None: there are none.
@@ -116,10 +122,9 @@ class _Velocities:
     def _on_circles(self, entry: sympy.Expr) -> sympy.Expr:
         """A number where an entry is a multiple of the sum of the squares of a cosine and its sine; else the entry."""
         own = sympy.expand(entry)
-        for direction in self.solution.loops.directions:
-            if direction.kind == "circle":
-                cosine, sine = direction.unknowns
-                own = sympy.expand(own.subs(sine**2, 1 - cosine**2))
+        circles = [direction.unknowns for direction in self.solution.loops.directions if direction.kind == "circle"]
+        for cosine, sine in (*circles, *self.symbols.circles):
+            own = sympy.expand(own.subs(sine**2, 1 - cosine**2))
         return own if own.is_number else entry
 
     def _alike(self, row: Form) -> Form:

@@ -185,10 +185,10 @@ class DerivedProblem:
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
-    parallelograms that stay such; `left_out` says of links in which other way they may stand; `lengths` are found after the sets. `proof` is there where it is asked for, or
-    `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
-    that is not solved; `count` the number of solutions, found without any of the elimination;
-    `closed` what holds where conditions do not, derived modulo a prime.
+    parallelograms that stay such; `left_out` says in which other way links may stand; `lengths` are found after the
+    sets. `proof` is there where it is asked for, or `not_proved` says why it is not. `square_roots`: whether these
+    alone solve it; "no" is proved. `resists` is the set that is not solved; `count` the number of solutions, found
+    without any of the elimination; `closed` what holds where conditions do not, derived modulo a prime.
     """
 
     problem: str

@@ -100,7 +100,10 @@ class OrientationCheck:
         return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
 
     def _on_rod(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
-        """A link between two balls, or one on a hinge across the axis about which its carrier turns."""
+        """A link between two balls, or one on a hinge across the axis about which its carrier turns.
+
+        Its line is not along that hinge. So Rot(axis, psi) Rot(hinge, phi) takes it to any direction but for a few.
+        """
         line, hinge, graph = turn.line, turn.hinge, self.assembly.graph
         if line is None or not self.zero(plus(dot(line, line), -1)):
             return False
@@ -115,7 +118,7 @@ class OrientationCheck:
             straight = all(map(self.zero, cross(line, subtract(far, near))))
             return balls and straight and (leader is turn or parallel) and same(turn.constant, ONE, self.zero)
         axis = turn.axis
-        if axis is None or not all(self.zero(dot(*pair)) for pair in ((hinge, axis), (hinge, line))):
+        if axis is None or not self.zero(dot(hinge, axis)) or all(map(self.zero, cross(hinge, line))):
             return False
         if leader is not turn:
             between = self._reached(leader.link, None).get(turn.link)

@@ -168,7 +168,7 @@ class ClaimedTurn:
         if self.kind != "rod":
             return self._turned(own, values, zero)
         line, hinge, rod = self.line or (0, 0, 0), self.hinge or (0, 0, 0), self.rod or ()
-        share, beside = dot(line, own), dot(hinge, own)
+        share, beside = dot(line, own), dot(hinge, own) if zero(dot(hinge, line)) else 0
         if not all(zero(part) for part in subtract(own, _add(_scaled(line, share), _scaled(hinge, beside)))):
             raise RefusedError(f"{self.link} has a point beside its line")
         x, y, z = (values[name] for name in rod)
