@@ -1,21 +1,17 @@
 """Kinds that drafts have: rods oblique to their hinges, several sliders on a platform that turns."""
 
-import itertools
-
 import numpy as np
 import pytest
-import sympy
 
 from assur.cli.main import main
 from assur.derivation.solution import analytic_solution
-from assur.derivation.symbols import circle_of
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
-from assur.kinematics.home import home_values
 from assur.kinematics.position import direct
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
+from derived_points import derived_points, inputs_near_home
 
 OBLIQUE = {"tsai": "R[y] R[y] P(4R)[x] R[y]", "3-PRPaR": "P[z] R[y] P(4R)[x] R[y]"}
 SLIDING = {"3-RRP": "R[z] R[z] P[x]", "3-PRP": "P[y] R[z] P[x]"}
@@ -26,37 +22,6 @@ def draft(limb, folder):
     path = folder / "draft.toml"
     path.write_text(drafted(repeated(limb, 3), path).text, encoding="utf-8")
     return load_record(path)
-
-
-def inputs_near_home(record):
-    """Printed inputs (n,), each moved a little: lengths by 5, angles by 0.1 rad."""
-    home = home_values(record)
-    moved = np.linspace(-1.0, 1.0, len(record.inputs))
-    return np.array([
-        float(own.printed(home[own.coordinate.index])) + share * (5.0 if own.coordinate.kind == "length" else 0.1)
-        for own, share in zip(record.inputs, moved, strict=True)
-    ])  # fmt: skip
-
-
-def derived_points(record, inputs):
-    """The platform's point (N, 3) of each real branch of the direct problem."""
-    solution = analytic_solution(record, "direct")
-    given = {symbol: record.parameters[name].inside for name, symbol in solution.symbols.parameters.items()}
-    for own, value in zip(record.inputs, inputs, strict=True):
-        given |= (
-            {sympy.Symbol(own.name, real=True): float(value)} if own.coordinate.kind == "length"
-            else dict(zip(circle_of(own.name), (float(np.cos(value)), float(np.sin(value))), strict=True))
-        )  # fmt: skip
-    points = []
-    for signs in itertools.product((1, -1), repeat=len(solution.roots)):
-        turned = {root.symbol: sign for root, sign in zip(solution.roots, signs, strict=True)}
-        values = dict(given)
-        for own in solution.definitions:
-            values[own.symbol] = turned.get(own.symbol, 1) * complex(sympy.N(own.formula, 20, subs=values))
-        point = np.array([complex(sympy.N(part, 20, subs=values)) for part in solution.point])
-        if np.max(np.abs(point.imag)) < 1e-9:
-            points.append(point.real)
-    return np.array(points)
 
 
 @pytest.mark.parametrize("limb", [

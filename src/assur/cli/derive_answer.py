@@ -18,6 +18,7 @@ from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
+from assur.derivation.home_conditions import conditions_at_home
 from assur.derivation.kept import derived_closed_form, derived_document
 from assur.derivation.linear import value_of
 from assur.derivation.linear_span import NoIdentityError
@@ -130,8 +131,7 @@ def _write_document(path: Path, record: Mechanism, parts: Sequence[DerivedProble
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
     try:
         solution = analytic_solution(record, problem)
-        if not solution.closes():
-            raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
+        solution.held_against_loops()
     except ResistingSetError as error:
         resists = ResistingSet(
             tuple(direction.name for direction in error.left),
@@ -150,6 +150,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         square_roots="yes" if solution.eliminant is None
         else "no" if solution.group is not None and solution.group.no_tower else "open",
         left_out=(*left_out(solution.placed),),
+        vanish_at_home=tuple(map(str, conditions_at_home(solution))),
     )  # fmt: skip
 
 
@@ -250,6 +251,9 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             yield ""
         yield from _end(part) if derived else _resistance(part)
         yield from (f"left out: {text}" for text in part.left_out)
+        if part.vanish_at_home:
+            where = " and ".join(f"{name} = 0" for name in part.vanish_at_home)
+            yield f"at home {where}: with the file's dimensions the formulas degenerate there, or branches meet"
         yield from _cases(part)
         yield from _counted(part)
         yield ""

@@ -17,7 +17,7 @@ import sympy
 from assur.derivation.hinges import HOME, RigidPair
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.rotations_at_home import rotations_at_home
-from assur.derivation.turning_bodies import TurningBodies, Way
+from assur.derivation.turning_bodies import TurningBodies, TurningWay
 from assur.joints.steps import about
 from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, transposed, triple
 
@@ -81,7 +81,7 @@ def _held_together(bodies: TurningBodies) -> Iterator[tuple[RigidPair, Constrain
                 yield RigidPair(root, body, after, ()), reason
 
 
-def _meeting(bodies: TurningBodies, first: Way, second: Way, body: str) -> Matrix:
+def _meeting(bodies: TurningBodies, first: TurningWay, second: TurningWay, body: str) -> Matrix:
     """Rot(u, a) C1 = Rot(v, b) C2."""
     u, v, is_zero = first.axis, second.axis, bodies.symbols.witness.is_zero
     between = apply(product(first.constant, transposed(second.constant)), v)
@@ -112,7 +112,7 @@ def _triangles(bodies: TurningBodies) -> Iterator[tuple[RigidPair, ConstraintRea
                     yield RigidPair(root, body, first.constant, ()), reason
 
 
-def _as_at_home(bodies: TurningBodies, root: str, body: str, way: Way) -> bool:
+def _as_at_home(bodies: TurningBodies, root: str, body: str, way: TurningWay) -> bool:
     """Whether a body stands at home as if it had not turned."""
     rotations = rotations_at_home(bodies.symbols.record)
     if not {root, body} <= rotations.keys() or any(

@@ -76,8 +76,8 @@ def _kept(record: MechanismRecord, what: str, make: Callable[[], str]) -> tuple[
 
 def _that_agrees(record: MechanismRecord) -> str:
     derivation = derive(record)
-    if not (derivation.direct.closes() and derivation.inverse.closes()):
-        raise NotDerivedError("the formulas that were found do not close every loop: the pose says too little")
+    for solution in (derivation.direct, derivation.inverse):
+        solution.held_against_loops()
     text = derivation.closed_form()
     plain = record.without_closed_form
     form = names_of(text, Path(CLOSED_FORM))["CLOSED_FORM"]

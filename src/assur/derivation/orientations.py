@@ -12,7 +12,7 @@ from assur.derivation.named_directions import NamedDirections
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.posed_orientation import posed_orientation
 from assur.derivation.symbols import GivenSymbols
-from assur.derivation.turning_bodies import TurningBodies, Way
+from assur.derivation.turning_bodies import TurningBodies, TurningWay
 from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
 from assur.numerics.vectors import Matrix, Vector, apply, dot, product, subtract, transposed
@@ -141,10 +141,12 @@ class _Reading:
                 return turn.child, replace(carrier, constant=constant, hinge=hinge)
         return None
 
-    def _hinged(self, free: Sequence[Hinge], ways: Mapping[str, Way]) -> dict[str, tuple[Way, Vector, Matrix]]:
+    def _hinged(
+        self, free: Sequence[Hinge], ways: Mapping[str, TurningWay]
+    ) -> dict[str, tuple[TurningWay, Vector, Matrix]]:
         """Rods on hinges: how what carries them turns, the hinge's direction and C, both where its psi is zero."""
         self._carrier: dict[str, str] = {}
-        hinged: dict[str, tuple[Way, Vector, Matrix]] = {}
+        hinged: dict[str, tuple[TurningWay, Vector, Matrix]] = {}
         both = [*free, *(turn.back for turn in free)]
         for turn in both:
             if turn.parent not in ways or turn.child in ways or turn.child in hinged:

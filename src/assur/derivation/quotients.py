@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any
 
 import sympy
@@ -22,6 +22,8 @@ def cancelled(formula: sympy.Expr) -> sympy.Expr:
     >>> x, y = sympy.symbols("x y")
     >>> cancelled(x / (x * y + x**2) + y / (x + y))
     (y + 1)/(x + y)
+    >>> cancelled((x * sympy.cos(y) ** 2 + x * sympy.sin(y) ** 2) / sympy.sin(y))
+    x/sin(y)
     >>> cancelled(sympy.sqrt(3) * x / (2 * sympy.sqrt(3)) + sympy.sqrt(3) ** 3)
     x/2 + 3*sqrt(3)
     """
@@ -101,7 +103,10 @@ class RationalFunctions:
         return sympy.Add(*terms)
 
     def reduced(self, own: fmpq_mpoly) -> fmpq_mpoly:
-        """A polynomial with the squares of roots of numbers written out."""
+        """A polynomial with squares of roots of numbers written out, and of sines or cosines where it is shorter so."""
+        for sine, cosine in self._angles:
+            other = self._without_square(own, sine, cosine), self._without_square(own, cosine, sine)
+            own = min(own, *other, key=len)
         for k, generator in enumerate(self.generators):
             if generator.is_Pow and generator.base.is_Rational and own.degrees()[k] > 1:
                 square = fmpq(int(generator.base.p), int(generator.base.q))
@@ -112,6 +117,22 @@ class RationalFunctions:
                     terms[key] = terms.get(key, fmpq(0)) + factor * square**count
                 own = self.ring.from_dict(terms)
         return own
+
+    @cached_property
+    def _angles(self) -> list[tuple[int, int]]:
+        """Places of the sine and the cosine of each angle that both are there of."""
+        places = {generator: k for k, generator in enumerate(self.generators)}
+        pairs = ((k, places.get(sympy.cos(own.args[0]))) for own, k in places.items() if isinstance(own, sympy.sin))
+        return [(sine, cosine) for sine, cosine in pairs if cosine is not None]
+
+    def _without_square(self, own: fmpq_mpoly, sine: int, cosine: int) -> fmpq_mpoly:
+        """A polynomial modulo cos^2 + sin^2 = 1, the first of the two to the power of 1 at most."""
+        square = self.ring.constant(1) - self.ring.gen(cosine) ** 2
+        parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
+        for powers, factor in own.to_dict().items():
+            count, left = divmod(int(powers[sine]), 2)
+            parts.setdefault(count, {})[(*powers[:sine], left, *powers[sine + 1 :])] = factor
+        return sum((self.ring.from_dict(part) * square**count for count, part in parts.items()), self.ring.constant(0))
 
     def without_shared(self, parts: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
         """Polynomials without factors with roots of numbers in them that all share, as a short one of them shows."""

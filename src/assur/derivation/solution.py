@@ -18,6 +18,7 @@ from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.home_numbers import home_numbers
 from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, replaced, solved, sparse, value_of
 from assur.derivation.loop_equations import LoopEquations, loop_equations
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets_in_order import SetProblem
 from assur.derivation.strokes import stroke_vectors
@@ -75,6 +76,15 @@ class AnalyticSolution:
     def closes(self) -> bool:
         """Whether every branch closes every loop, exactly, at values modulo a large prime; of a polynomial a root."""
         return all(self._closes(signs) for signs in choices_of((1, -1), repeat=len(self.roots)))
+
+    def held_against_loops(self) -> None:
+        """Errors: NotDerivedError, where a branch leaves a loop open."""
+        if not self.closes():
+            less = ", or the pose says too little" if self.symbols.problem == "inverse" else ""
+            raise NotDerivedError(
+                f"the formulas that were found do not close every loop: some loops close for special dimensions alone, or "
+                f"on some of the branches{less}"
+            )
 
     def _closes(self, signs: Sequence[int]) -> bool:
         witness = self._replayed(1, self.sets, signs)
@@ -162,7 +172,8 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
     axes, forms = forms[: loops.axes], _more_than(forms[: loops.axes], forms[loops.axes :], loops, witness)
     given = {symbol for circle in symbols.circles for symbol in circle}
-    turned = any(form[length].free_symbols & given for form in forms for length in fixed if length in form)
+    shares = [form[length] for form in forms for length in fixed if length in form]
+    turned = any(share.free_symbols & given or share.has(sympy.sin) for share in shares)
     lengths, short = projected(
         forms if turned else sparse(forms, witness, everywhere=bool(loops.framed)), fixed, witness
     )

@@ -30,6 +30,14 @@ def abs_of(symbol: sympy.Expr) -> sympy.Symbol:
     return next(iter(symbol.free_symbols))
 
 
+def _exact(part: Any) -> sympy.Expr:
+    """A component without floats; cos^2 + sin^2 is 1 under its roots, as in the length of an axis."""
+    return sympy.nsimplify(part).replace(
+        lambda own: own.is_Pow and not own.exp.is_Integer and own.has(sympy.sin),
+        lambda own: sympy.trigsimp(own.base) ** own.exp,
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class GivenSymbols:
     """What is known at first.
@@ -60,7 +68,7 @@ class GivenSymbols:
     def geometry(self) -> Geometry:
         """Points, axes and turns of all joints."""
         reading = NumberReading(self.parameters, sympy, sympy.Rational)
-        return written_geometry(self.record, reading).mapped(sympy.nsimplify)
+        return written_geometry(self.record, reading).mapped(_exact)
 
     @cached_property
     def locked(self) -> dict[int, Any]:

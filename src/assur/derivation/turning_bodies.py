@@ -17,7 +17,7 @@ from assur.numerics.vectors import Matrix, Vector, apply, product, subtract, tra
 
 
 @dataclass(frozen=True)
-class Way:
+class TurningWay:
     """A direction u by whose axes a body hangs on a root, C of Rot(u, psi) C, and the joints."""
 
     axis: Vector
@@ -89,14 +89,14 @@ class TurningBodies:
         """The hinges, seen from either body."""
         return [*self.free, *(turn.back for turn in self.free)]
 
-    def ways(self, root: str, rotation: Matrix = UNTURNED) -> dict[str, list[Way]]:
+    def ways(self, root: str, rotation: Matrix = UNTURNED) -> dict[str, list[TurningWay]]:
         """For each body, the directions by whose axes alone it hangs on the root, whose orientation is given."""
         directions: list[Vector] = []
         for turn in self.both:
             axis = self.exact.upright(self.exact.tidied(apply(rotation, turn.axis)))
             if turn.parent == root and not any(self.exact.along(axis, other) for other in directions):
                 directions.append(axis)
-        ways: dict[str, list[Way]] = {}
+        ways: dict[str, list[TurningWay]] = {}
         for axis in directions:
             reached: dict[str, tuple[Matrix, tuple[str, ...]]] = {root: (rotation, ())}
             waiting = [root]
@@ -112,7 +112,7 @@ class TurningBodies:
                         waiting.append(turn.child)
             for body in waiting[1:]:
                 constant, joints = reached[body]
-                ways.setdefault(body, []).append(Way(axis, self._unturned(constant, axis), joints))
+                ways.setdefault(body, []).append(TurningWay(axis, self._unturned(constant, axis), joints))
         return ways
 
     def _unturned(self, constant: Matrix, axis: Vector) -> Matrix:

@@ -184,11 +184,12 @@ class DerivedProblem:
     """The direct or the inverse problem.
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
-    modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the
-    parallelograms that stay such; `left_out` says in which other way links may stand; `lengths` are found after the
-    sets. `proof` is there where it is asked for, or `not_proved` says why it is not. `square_roots`: whether these
-    alone solve it; "no" is proved. `resists` is the set that is not solved; `count` the number of solutions, found
-    without any of the elimination; `closed` what holds where conditions do not, derived modulo a prime.
+    modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the parallelograms
+    that stay such; `left_out` says in which other way links may stand; `vanish_at_home` are conditions and radicands
+    that are zero at the file's home; `lengths` are found after the sets. `proof` is there where it is asked for, or
+    `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
+    that is not solved; `count` the number of solutions, found without any of the elimination; `closed` what holds where
+    conditions do not, derived modulo a prime.
     """
 
     problem: str
@@ -209,6 +210,7 @@ class DerivedProblem:
     count: CountedSolutions | Absent = ABSENT
     closed: tuple[DerivedCase, ...] | Absent = ABSENT
     left_out: tuple[str, ...] = ()
+    vanish_at_home: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
