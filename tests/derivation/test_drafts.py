@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import analytic_solution
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
-from assur.kinematics.position import direct
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
-from derived_points import derived_points, inputs_near_home
+from derived_points import derived_inputs, derived_points, inputs_near_home
 
 OBLIQUE = {"tsai": "R[y] R[y] P(4R)[x] R[y]", "3-PRPaR": "P[z] R[y] P(4R)[x] R[y]"}
 SLIDING = {"3-RRP": "R[z] R[z] P[x]", "3-PRP": "P[y] R[z] P[x]"}
@@ -70,3 +73,24 @@ def test_the_inverse_problem_of_a_sliding_draft_is_proved(tmp_path, capsys):
     proof.write_text(capsys.readouterr().out)
     assert main(["verify", str(proof), "--mechanism", str(record.file)]) == 0
     assert "inverse: derivation verified: 8 branches" in " ".join(capsys.readouterr().out.split())
+
+
+def test_sliders_oblique_to_the_axis_about_which_they_turn_are_as_long_as_those_of_the_joint_graph(tmp_path):
+    """The inverse problem of 3-CPR: by formulas, and limb by limb for all roots."""
+    record = draft("C[1,0,1] P[z] R[1,0,1]", tmp_path)
+    solution = analytic_solution(record, "inverse")
+    assert solution.branches == 8
+    assert solution.closes()
+    pose = pose_of(record, home_values(record)) + np.array([3.0, -4.0, 5.0])
+    derived = np.array([*derived_inputs(record, pose)])
+    closed = np.array([own.inputs for own in inverse(record, pose)])
+    assert len(derived) == len(closed) == 8
+    for own in closed:
+        assert np.min(np.max(np.abs(derived - own), axis=1)) < APART
+    for own in derived:
+        assert np.min(np.max(np.abs(closed - own), axis=1)) < APART
+
+
+def test_sliders_oblique_to_their_axes_are_no_wrong_direct_solution(tmp_path):
+    with pytest.raises(NotDerivedError, match="slides oblique to the axis"):
+        analytic_solution(draft("C[1,0,1] P[z] R[1,0,1]", tmp_path), "direct")

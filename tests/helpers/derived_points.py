@@ -23,19 +23,34 @@ def inputs_near_home(record):
 def derived_points(record, inputs):
     """The platform's point (N, 3) of each real branch of the direct problem."""
     solution = analytic_solution(record, "direct")
-    given = {symbol: record.parameters[name].inside for name, symbol in solution.symbols.parameters.items()}
+    given = {}
     for own, value in zip(record.inputs, inputs, strict=True):
         given |= (
             {sympy.Symbol(own.name, real=True): float(value)} if own.coordinate.kind == "length"
             else dict(zip(circle_of(own.name), (float(np.cos(value)), float(np.sin(value))), strict=True))
         )  # fmt: skip
-    points = []
+    return np.array([[values(part) for part in solution.point] for values in real_branches(solution, given)])
+
+
+def derived_inputs(record, pose):
+    """Printed inputs, lengths (n,), of each real branch of the inverse problem at a pose of lengths (m,)."""
+    solution = analytic_solution(record, "inverse")
+    given = {
+        sympy.Symbol(name, real=True): float(value) for name, value in zip(record.platform.pose, pose, strict=True)
+    }
+    for values in real_branches(solution, given):
+        lengths = solution.loops.lengths
+        yield [own.printed(values(lengths[own.coordinate.index])) for own in record.inputs]
+
+
+def real_branches(solution, given):
+    """What works out formulas, at each branch whose values are real."""
+    record = solution.symbols.record
+    given = given | {symbol: record.parameters[name].inside for name, symbol in solution.symbols.parameters.items()}
     for signs in itertools.product((1, -1), repeat=len(solution.roots)):
         turned = {root.symbol: sign for root, sign in zip(solution.roots, signs, strict=True)}
         values = dict(given)
         for own in solution.definitions:
             values[own.symbol] = turned.get(own.symbol, 1) * complex(sympy.N(own.formula, 20, subs=values))
-        point = np.array([complex(sympy.N(part, 20, subs=values)) for part in solution.point])
-        if np.max(np.abs(point.imag)) < 1e-9:
-            points.append(point.real)
-    return np.array(points)
+        if all(abs(complex(value).imag) < 1e-9 for value in values.values()):
+            yield lambda part, known=values: complex(sympy.N(part, 20, subs=known)).real

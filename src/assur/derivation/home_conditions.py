@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import sympy
@@ -22,7 +23,7 @@ def conditions_at_home(solution: AnalyticSolution) -> Iterator[sympy.Expr]:
     """
     known = {own.symbol: own.formula for own in solution.definitions}
     radicands = {root.radicand for root in solution.roots}
-    witness = solution.symbols.witness
+    numbers = _numbers(solution)
     sizes: dict[sympy.Expr, float] = {}
 
     def size(formula: sympy.Expr) -> float:
@@ -40,11 +41,28 @@ def conditions_at_home(solution: AnalyticSolution) -> Iterator[sympy.Expr]:
             return float(size(formula.base) ** float(formula.exp))
         if formula.is_Symbol and formula in known and formula not in unknowns:
             return size(known[formula])
-        return abs(witness.at_home(formula))
+        return abs(_value(formula, numbers))
 
     unknowns = {unknown for own in solution.loops.directions for unknown in own.unknowns}
     for part in solution.sets:
         own = [definition.symbol for definition in part.definitions if definition.symbol in radicands]
         for condition in (*part.conditions, *own):
-            if abs(witness.at_home(condition)) <= VANISHED * size(condition):
+            if abs(_value(condition, numbers)) <= VANISHED * size(condition):
                 yield condition
+
+
+def _numbers(solution: AnalyticSolution) -> dict[sympy.Symbol, float]:
+    """Every symbol at home; what is defined and not known there by its formula."""
+    numbers = dict(solution.symbols.witness.home)
+    for own in solution.definitions:
+        if own.symbol not in numbers:
+            numbers[own.symbol] = _value(own.formula, numbers)
+    return numbers
+
+
+def _value(formula: sympy.Expr, numbers: dict[sympy.Symbol, float]) -> float:
+    """Not a number where it divides by what vanishes, or where rounding makes a radicand negative."""
+    try:
+        return float(sympy.sympify(formula).evalf(30, subs=numbers))
+    except (ZeroDivisionError, TypeError):
+        return math.nan

@@ -32,6 +32,7 @@ def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, loops: LoopEqu
         numbers[own.symbol] = float(own.formula.evalf(subs=numbers))
     for index, length in loops.lengths.items():
         numbers[length] = float(values[index])
+    numbers |= {across: numbers[length] for length, across in loops.oblique.items()}
     rotations = rotations_at_home(record)
     for direction in sorted(loops.directions, key=lambda own: placed.links[own.links[0]].second is not None):
         placing = placed.links[direction.links[0]]

@@ -74,6 +74,7 @@ class LoopEquations:
         relations: dimensions that follow from others, without which no loop closes.
         carriers: circles of links that carry axes of other links which turn. They are coefficients.
         framed: circles of links in whose frame loops are written, as several joints slide on each.
+        oblique: length of a slider oblique to the axis about which it turns -> its symbol in what turns. Both are one.
     """
 
     forms: tuple[Form, ...]
@@ -85,6 +86,7 @@ class LoopEquations:
     carriers: tuple[UnknownDirection, ...] = ()
     axes: int = 0
     framed: tuple[UnknownDirection, ...] = ()
+    oblique: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -98,6 +100,7 @@ class _Loops:
         self.graph = joint_graph(self.record)
         self.lengths: dict[int, sympy.Symbol] = {}
         self.strokes: dict[sympy.Symbol, UnknownDirection] = {}
+        self.oblique: dict[sympy.Symbol, sympy.Symbol] = {}
         self.circles = {k: self._unknown_direction("circle", links) for k, links in self._numbered("circle").items()}
         self.rods = {k: self._unknown_direction("rod", links) for k, links in self._numbered("rod").items()}
 
@@ -143,12 +146,17 @@ class _Loops:
             carriers,
             len(axes),
             framed,
+            dict(self.oblique),
         )
 
     def _framed(self) -> tuple[UnknownDirection, ...]:
         """Circles of links on which several joints slide."""
         circles = [own for own in self.strokes.values() if own.kind == "circle"]
-        return tuple(own for own in dict.fromkeys(circles) if circles.count(own) > 1)
+        framed = tuple(own for own in dict.fromkeys(circles) if circles.count(own) > 1)
+        if framed and self.oblique:
+            names = " and ".join(own.name for own in framed)
+            raise NotDerivedError(f"several joints slide on {names}, which turns, oblique to its axis")
+        return framed
 
     def _in_frame(self, gap: Vector, framed: Sequence[UnknownDirection]) -> Vector:
         """A loop in the frame of the link along whose directions its lengths run. Errors: NotDerivedError."""
@@ -273,11 +281,17 @@ class _Loops:
         total: Vector = (0, 0, 0)
         for axis, index in self._sliding(joint):
             along, length = self.carried(joint.parent, axis), self.symbols.locked.get(index)
-            if length is None:
-                length = self.lengths.setdefault(index, sympy.Symbol(f"q_{joint.name.replace('.', '_')}", real=True))
-                circle = self._turning(joint, along)
-                if circle is not None:
-                    self.strokes[length] = circle
+            if length is not None:
+                total = add(total, scaled(along, length))
+                continue
+            length = self.lengths.setdefault(index, sympy.Symbol(f"q_{joint.name.replace('.', '_')}", real=True))
+            circle, still = self._turning(joint, along)
+            if circle is not None and any(still):
+                total = add(total, scaled(still, length))
+                across = sympy.Symbol(f"{length.name}_across", real=True)
+                self.oblique[length], along, length = across, self._tidied(subtract(along, still)), across
+            if circle is not None:
+                self.strokes[length] = circle
             total = add(total, scaled(along, length))
         return total
 
@@ -287,8 +301,8 @@ class _Loops:
             if step.kind == "slide":
                 yield axes[step.direction], start + first
 
-    def _turning(self, joint: Joint, along: Vector) -> UnknownDirection | None:
-        """The circle by which the direction of a slider turns, across its axis, or the rod that it is the direction of.
+    def _turning(self, joint: Joint, along: Vector) -> tuple[UnknownDirection | None, Vector]:
+        """The circle by which the direction of a slider turns, or the rod that it is the direction of, and what stands.
 
         Errors:
             NotDerivedError: it slides otherwise.
@@ -296,16 +310,15 @@ class _Loops:
         used = {symbol for part in along for symbol in sympy.sympify(part).free_symbols}
         turning = [own for own in (*self.circles.values(), *self.rods.values()) if used & {*own.unknowns}]
         if not turning:
-            return None
+            return None, (0, 0, 0)
         circle = turning[0]
-        still = [sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along]
-        if len(turning) > 1 or not all(map(self.symbols.witness.is_zero, still)):
-            raise NotDerivedError(
-                f"{joint.name} slides on a link that turns, not across the axis of its turns, nor along its line"
-            )
+        x, y, z = (sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along)
+        still = self._tidied((x, y, z))
+        if len(turning) > 1 or (circle.kind == "rod" and any(still)):
+            raise NotDerivedError(f"{joint.name} slides on a link that turns, not along its line")
         if circle.kind == "rod" and circle in self.strokes.values():
             raise NotDerivedError(f"{joint.name} slides on a link that turns, beside another slider")
-        return circle
+        return circle, still
 
     def carried(self, link: str, vector: Vector) -> Vector:
         """A vector fixed in a link, in the base."""

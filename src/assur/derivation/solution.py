@@ -82,8 +82,8 @@ class AnalyticSolution:
         if not self.closes():
             less = ", or the pose says too little" if self.symbols.problem == "inverse" else ""
             raise NotDerivedError(
-                f"the formulas that were found do not close every loop: some loops close for special dimensions alone, or "
-                f"on some of the branches{less}"
+                "the formulas that were found do not close every loop: some loops close for special dimensions alone, "
+                f"or on some of the branches{less}"
             )
 
     def _closes(self, signs: Sequence[int]) -> bool:
@@ -169,7 +169,8 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     loops = loop_equations(symbols, placed)
     witness.home = home_numbers(symbols, placed, loops)
     vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
-    fixed = [length for length in loops.lengths.values() if length not in loops.strokes]
+    fixed = [length for length in loops.lengths.values() if length not in {*loops.strokes, *loops.oblique}]
+    forms = [_with_turning_lengths(form, loops) for form in forms]
     axes, forms = forms[: loops.axes], _more_than(forms[: loops.axes], forms[loops.axes :], loops, witness)
     given = {symbol for circle in symbols.circles for symbol in circle}
     shares = [form[length] for form in forms for length in fixed if length in form]
@@ -179,8 +180,10 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     )
     lengths = {length: _shorter(form, symbols) for length, form in lengths.items()}
     short = [*axes, *sparse([divided(_shorter(form, symbols)) for form in short], witness)]
+    _refuse_oblique(short, loops)
     sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
-    backward = tuple(Definition(symbol, value_of(form)) for symbol, form in lengths.items())
+    known = loops.oblique | {symbol: value_of(form) for symbol, form in lengths.items()}
+    backward = tuple(Definition(symbol, formula) for symbol, formula in known.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
     x, y, z = (value_of(_without_unknowns(form, sets, witness)) for form in loops.point)
@@ -195,6 +198,25 @@ def _without_unknowns(form: Form, sets: Sequence[SolvedSet], witness: ModularWit
         return form
     values, _ = solved(rows, unknowns, witness)
     return {key: part for key, part in replaced(form, values, witness).items() if key not in unknowns}
+
+
+def _with_turning_lengths(form: Form, loops: LoopEquations) -> Form:
+    """An equation in which a slider oblique to the axis of its turns has the symbol of what turns."""
+    own = {key: part for key, part in form.items() if key not in loops.oblique}
+    turning = sum(
+        (form[length] * across for length, across in loops.oblique.items() if length in form), sympy.Integer(0)
+    )
+    return own if turning == 0 else {**own, ONE: form.get(ONE, sympy.Integer(0)) + turning}
+
+
+def _refuse_oblique(forms: Sequence[Form], loops: LoopEquations) -> None:
+    """Errors: NotDerivedError, where such a slider has equations beside that of its vector."""
+    for length, across in loops.oblique.items():
+        if any(part.has(across) for form in forms for part in form.values()):
+            name = length.name.removeprefix("q_").replace("_", ".")
+            raise NotDerivedError(
+                f"{name} slides oblique to the axis about which it turns, and no vector alone says how far"
+            )
 
 
 def _shorter(form: Form, symbols: GivenSymbols) -> Form:

@@ -78,5 +78,7 @@ def _system(record: MechanismRecord, problem: Problem, seed: int) -> ResidueSyst
 
 def _at(loops: LoopEquations, witness: ModularWitness) -> ResidueSystem | None:
     unknowns = [*loops.lengths.values(), *(own for direction in loops.directions for own in direction.unknowns)]
-    equations = [*map(value_of, loops.forms), *(direction.quadric for direction in loops.directions)]
+    one = {across: length for length, across in loops.oblique.items()}
+    equations = [value_of(form).xreplace(one) for form in loops.forms]
+    equations += [direction.quadric for direction in loops.directions]
     return residue_system(equations, unknowns, witness)

@@ -40,6 +40,8 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
         yield "axes that links share which turn in space"
     if any(own.kind == "rod" for own in loops.strokes.values()):
         yield "rods whose length is sought"
+    if loops.oblique:
+        yield "sliders oblique to the axis about which they turn"
     if loops.framed:
         yield "loops in the frame of a link that turns"
     if any(own.third is not None for own in placed.reasons):
