@@ -182,7 +182,7 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     short = [*axes, *sparse([divided(_shorter(form, symbols)) for form in short], witness)]
     _refuse_oblique(short, loops)
     sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
-    known = loops.oblique | {symbol: value_of(form) for symbol, form in lengths.items()}
+    known = {**loops.oblique, **{symbol: value_of(form) for symbol, form in lengths.items()}}
     backward = tuple(Definition(symbol, formula) for symbol, formula in known.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
