@@ -5,6 +5,7 @@ import pytest
 
 from assur.cli.main import main
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.reasons import left_out
 from assur.derivation.solution import analytic_solution
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
@@ -43,6 +44,12 @@ def test_a_draft_has_two_assemblies_which_a_search_finds(limb, tmp_path):
     for pose in met:
         known = [float(value) for name, value in zip(record.platform.pose, pose, strict=True) if name in "xyz"]
         assert min(np.max(np.abs(own[place] - known)) for own in points) < APART
+
+
+def test_a_rod_oblique_to_its_hinge_is_said_to_be_real_for_a_part_of_all_directions(tmp_path):
+    placed = analytic_solution(draft(OBLIQUE["tsai"], tmp_path), "direct").placed
+    said = "is oblique to its hinge, and real only where its direction has at most l2/sqrt(e1**2 + l2**2) along y"
+    assert [f"leg1.rodC1 {said}"] == [text for text in left_out(placed) if text.startswith("leg1")]
 
 
 @pytest.mark.deep

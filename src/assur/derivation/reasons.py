@@ -9,7 +9,7 @@ import sympy
 from assur.derivation.constraint_reasons import ConstraintReason
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
-from assur.numerics.vectors import Vector
+from assur.numerics.vectors import Vector, dot
 
 
 def sentences(placed: LinkOrientations) -> Iterator[str]:
@@ -26,7 +26,8 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
 
 
 def left_out(placed: LinkOrientations) -> Iterator[str]:
-    """One sentence for each link that is taken to stand as at home, though its axes close in another way too.
+    """What no formula says: a sentence for each link that is taken to stand as at home, though its axes close another
+    way too, and for each rod oblique to its hinge, which is real for a part of all directions alone.
 
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
@@ -37,6 +38,21 @@ def left_out(placed: LinkOrientations) -> Iterator[str]:
         if reason.other_way is not None:
             own = f"{reason.link} is taken to stand against {reason.carrier} as at home"
             yield f"{own}; it may also stand turned {_turned(*reason.other_way)} about {direction(reason.first)}"
+    yield from _oblique(placed)
+
+
+def _oblique(placed: LinkOrientations) -> Iterator[str]:
+    """Rods oblique to their hinges: where they are real."""
+    said = set[int]()
+    for link, own in placed.links.items():
+        if own.rod is None or own.rod in said or own.hinge is None or own.axis is None or own.line is None:
+            continue
+        said.add(own.rod)
+        lean = sympy.simplify(dot(own.line, own.hinge))
+        if lean != 0:
+            level = sympy.sqrt(sympy.factor_terms(sympy.simplify(1 - lean**2)))
+            axis = direction(own.axis)
+            yield f"{link} is oblique to its hinge, and real only where its direction has at most {level} along {axis}"
 
 
 def _turned(cosine: sympy.Expr, sine: sympy.Expr) -> str:
