@@ -24,6 +24,10 @@ from assur.model.pose import LENGTHS
 Group = tuple[str, ...]
 PLACES = 256
 """Poses that are looked at, about home."""
+ZERO = 1e-12
+"""Share of its size up to which a factor vanishes beyond doubt: one within `SAME` may be small only, as where another
+one vanishes; the rank says nothing there of both.
+"""
 FAR = 1.0
 """Half the range of the poses, in characteristic lengths and rad."""
 
@@ -39,11 +43,16 @@ def rank_losses(record: MechanismRecord, text: str) -> tuple[Group, ...]:
     own = record.with_closed_form(form, text)
     lost, kept = set[frozenset[str]](), set[frozenset[str]]()
     for places in _singular_places(own):
-        vanishing = {name: np.abs(value) <= SAME for name, value in relative_factors(own, places.factors).items()}
+        shares = {name: np.abs(value) for name, value in relative_factors(own, places.factors).items()}
+        vanishing = {name: share <= SAME for name, share in shares.items()}
+        beyond_doubt = np.all([(share <= ZERO) | (share > SAME) for share in shares.values()], axis=0)
         usual = motions(own, places.joints).ranks.closure == int(general(own).closure)
         for row in range(len(places)):
             group = frozenset(name for name, zero in vanishing.items() if zero[row])
-            (kept if usual[row] else lost).add(group)
+            if not usual[row]:
+                lost.add(group)
+            elif beyond_doubt[row]:
+                kept.add(group)
     smallest = [group for group in lost if not any(other < group for other in lost)]
     return tuple(
         sorted(tuple(sorted(group)) for group in smallest if group and not any(group <= other for other in kept))
