@@ -20,7 +20,8 @@ def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
     gaps = [max(abs(a - float(b)) for a, b in zip(item["pose"], POSE, strict=True)) for item in direct["solutions"]]
     assert min(gaps) < 1e-5
 
-    verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, "--mode=+-+", "--json")
+    mode = inverse["solutions"][-1]["mode"]
+    verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, f"--mode={mode}", "--json")
     assert verdict.code == 0
     path = assur_cli("follow", "hybrid.toml", "--to", "20", "20", "330", "--json").json
     assert path["stopped"] is None

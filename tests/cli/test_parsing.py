@@ -1,5 +1,7 @@
 """A command line that cannot be parsed: what is wrong is named, and the option that was probably meant."""
 
+import re
+
 import pytest
 from cyclopts import CycloptsError
 
@@ -57,7 +59,7 @@ def test_a_slip_in_any_option_is_answered_with_that_option():
             if slip not in options:
                 found = parsing.complaint(app, [name, slip], CycloptsError())
                 assert found.message == f"unknown option {slip} of assur {name}"
-                assert found.hint.startswith(f"did you mean {option}")
+                assert re.match(rf"did you mean [^?]*{option}\b", found.hint)
 
 
 def test_options_follow_the_command(assur_cli):

@@ -26,6 +26,12 @@ def point(record: MechanismRecord, name: str, joint_values: FloatArray) -> Float
     return _placed(record, name, frames(record, joint_values))
 
 
+def points(record: MechanismRecord, names: Iterable[str], joint_values: FloatArray) -> dict[str, FloatArray]:
+    """Positions (..., 3) of several by their names, as `point`; links are placed once for them all."""
+    placed = frames(record, joint_values)
+    return {name: _placed(record, name, placed) for name in names}
+
+
 def quantity(record: MechanismRecord, formula: Formula, joint_values: FloatArray) -> FloatArray:
     """Value (...) of a formula over parameters, joint values (rad or length) and point coordinates like `C1.y`."""
     return quantities(record, [formula], joint_values)[0]

@@ -17,7 +17,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, solve_by_loops, staying_parallel
-from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
+from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms, some_crossed
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.monodromy.assemblies_by_monodromy import solved_by_monodromy
 from assur.kinematics.near_home import nearest_first
@@ -124,7 +124,7 @@ def _missed(record: MechanismRecord, problem: Problem, given: FloatArray, known:
         closed = assemble(record, starts, poses=given, far=True, max_steps=CHECKED_STEPS)
     met = closed.values[closed.closed]
     if known.kept:
-        met = met[[not crossed_parallelograms(record, row) for row in met]]
+        met = met[~some_crossed(record, met)]
     where = places(record, known.joints)
     return any(np.min(np.max(np.abs(where - row), axis=1), initial=np.inf) > ANOTHER for row in places(record, met))
 
@@ -150,7 +150,7 @@ def _uncrossed(record: MechanismRecord, solutions: LoopSolutions) -> LoopSolutio
     names = tuple(parallelograms(record))
     if not names or crossed_parallelograms(record, home_values(record)):
         return solutions
-    kept = [not crossed_parallelograms(record, row) for row in solutions.joints]
+    kept = ~some_crossed(record, solutions.joints)
     right = solutions.right + staying_parallel(names)
     return replace(solutions, joints=solutions.joints[kept], right=right, kept=names, limbs=())
 
@@ -232,7 +232,7 @@ def _assemblies(
             found = replace(found, joints=found.joints[rows])
     if crossed or not parallelograms(record) or crossed_parallelograms(record, home_values(record)):
         return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
-    kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]
+    kept = found.joints[~some_crossed(record, found.joints)]
     left_out = len(found.joints) - len(kept)
     if left_out:
         reason += f"; {left_out} with crossed parallelograms {'was' if left_out == 1 else 'were'} left out"

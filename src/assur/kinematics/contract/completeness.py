@@ -13,7 +13,7 @@ from assur.kinematics.contract.borders import named_by_signs, refusing
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.home import home_values
-from assur.kinematics.loops.parallelograms import crossed_parallelograms
+from assur.kinematics.loops.parallelograms import some_crossed
 from assur.kinematics.modes import Problem, mode_text
 from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_error, pose_of
@@ -132,7 +132,7 @@ def _left_out(solutions: Solutions, joints: FloatArray) -> BoolArray:
                 np.max(np.abs(np.broadcast_to(others[link][0], (len(joints), 3, 3)) - first[0]), axis=(1, 2)) > TURNED
             )
     rest = np.flatnonzero(~out)
-    out[rest] = [bool(crossed_parallelograms(record, joints[k])) for k in rest]
+    out[rest] = some_crossed(record, joints[rest])
     return np.asarray(out)
 
 

@@ -42,10 +42,12 @@ class _Recorder(Recorder):
     def apply(self, name: str, *arguments: Any) -> Any:
         if any(isinstance(item, Expanded) for item in arguments):
             return NotImplemented  # a polynomial knows how to go on
-        found = super().apply(name, *arguments)
-        if self._operations[found.index] == self._stop:
-            raise ZeroDivisionError(name)
-        return found
+        return super().apply(name, *arguments)
+
+    def shared(self, operation: Operation) -> Recorded:
+        if operation == self._stop:
+            raise ZeroDivisionError(operation.name)
+        return super().shared(operation)
 
     def whole(self, outputs: Mapping[str, Any]) -> Tape:
         """Everything recorded, what no output needs too: entries keep their places."""

@@ -7,7 +7,7 @@ stay such unless crossed ones are asked for.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from itertools import combinations
 
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.points import point
+from assur.joint_graph.points import point, points
 from assur.kinematics.home import home_values
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics.rotations import cross
@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 PARALLEL = 1e-9
 """Share of the characteristic length by which equal vectors between joints may differ at home."""
 CROSSED = 1e-5
-"""The same, by which the four joints of a parallelogram may differ from one: more than assemblies are off."""
+"""Share of it by which the four joints of a parallelogram may differ from one: more than assemblies are off."""
 
 
 @lru_cache(maxsize=64)
@@ -52,13 +52,22 @@ def crossed_parallelograms(record: MechanismRecord, joints: FloatArray) -> tuple
     >>> crossed_parallelograms(record, home_values(record))
     ()
     """
-    return tuple(name for name, group in parallelograms(record).items() if _open(record, group, joints) > CROSSED)
+    shares = _open(record, parallelograms(record).values(), joints)
+    return tuple(name for name, share in zip(parallelograms(record), shares, strict=True) if share > CROSSED)
 
 
-def _open(record: MechanismRecord, group: GeneralisedJoint, joints: FloatArray) -> float:
-    """By how much four joints miss being a parallelogram, in characteristic lengths."""
-    first, second, third, fourth = (point(record, joint, joints) for joint in group.joints)
-    return float(np.linalg.norm(first - second + third - fourth)) / characteristic_length(record)
+def some_crossed(record: MechanismRecord, joints: FloatArray) -> NDArray[np.bool_]:
+    """Whether a parallelogram's four joints are none (N,) at joint values (N, n)."""
+    return np.asarray(np.any(_open(record, parallelograms(record).values(), joints) > CROSSED, axis=-1))
+
+
+def _open(record: MechanismRecord, groups: Collection[GeneralisedJoint], joints: FloatArray) -> FloatArray:
+    """By how much four joints of each miss being a parallelogram (..., k) at joint values (..., n), in lengths."""
+    placed = points(record, {name for group in groups for name in group.joints}, joints)
+    corners = [[placed[name] for name in group.joints] for group in groups]
+    gaps = np.array([first - second + third - fourth for first, second, third, fourth in corners])
+    shares = np.linalg.norm(gaps.reshape(len(corners), *joints.shape[:-1], 3), axis=-1) / characteristic_length(record)
+    return np.moveaxis(shares, 0, -1)
 
 
 Rod = tuple[str, tuple[Joint, Joint]]
@@ -89,7 +98,7 @@ def _pair(record: MechanismRecord, first: Rod, second: Rod) -> GeneralisedJoint 
     home = home_values(record)
     corner, along, _, across = (point(record, joint.name, home) for joint in around)
     area = np.linalg.norm(cross(along - corner, across - corner)) / characteristic_length(record) ** 2
-    return group if area > PARALLEL and _open(record, group, home) < PARALLEL else None
+    return group if area > PARALLEL and _open(record, (group,), home)[0] < PARALLEL else None
 
 
 def _other(joint: Joint, link: str) -> str:

@@ -149,8 +149,8 @@ class Recorder:
 
     def apply(self, name: str, *arguments: Any) -> Recorded:
         """The result of an operation, found again where it was done before."""
-        indices = tuple(self._number(argument).index for argument in arguments)
-        return self._shared(Operation(name, indices))
+        indices = tuple([self._number(argument).index for argument in arguments])
+        return self.shared(Operation(name, indices))
 
     def tape(self, outputs: Mapping[str, Any]) -> Tape:
         """What was recorded, with the numbers that are wanted of it; what these do not need is left out."""
@@ -159,12 +159,13 @@ class Recorder:
 
     def number(self, value: float) -> Recorded:
         """A number that is written into the program."""
-        return self._shared(Operation("number", number=float(value)))
+        return self.shared(Operation("number", number=float(value)))
 
     def _number(self, value: Any) -> Recorded:
         return value if isinstance(value, Recorded) else self.number(value)
 
-    def _shared(self, operation: Operation) -> Recorded:
+    def shared(self, operation: Operation) -> Recorded:
+        """The result of an operation on entries, found again where it was done before."""
         place = self._places.setdefault(operation, len(self._operations))
         if place == len(self._operations):
             self._operations.append(operation)
@@ -175,15 +176,40 @@ class Recorder:
         return Recorded(self, len(self._operations) - 1)
 
 
-@dataclass(frozen=True, eq=False)
-class Recorded:
-    """A number of a kernel that is being recorded; plain numbers may stand on either side of an operator."""
+def _forward(name: str) -> Callable[[Recorded, Any], Any]:
+    """A binary operator."""
 
-    recorder: Recorder
-    index: int
+    def operation(self: Recorded, other: Any) -> Any:
+        if type(other) is Recorded:
+            return self.recorder.shared(Operation(name, (self.index, other.index)))
+        return NotImplemented if _takes_over(other) else self.recorder.apply(name, self, other)
+
+    return operation
+
+
+def _backward(name: str) -> Callable[[Recorded, Any], Recorded]:
+    """A binary operator whose left side is a plain number."""
+    return lambda self, other: self.recorder.apply(name, other, self)
+
+
+class Recorded:
+    """A number of a kernel that is being recorded; plain numbers may stand on either side of an operator.
+
+    One is made for every operation, thousands for a program: so it has slots, and its operators do little.
+    """
+
+    __slots__ = ("index", "recorder")
+
+    def __init__(self, recorder: Recorder, index: int) -> None:
+        self.recorder, self.index = recorder, index
 
     # an array on the left must leave the operator to the recorded number on the right
     __array_ufunc__ = None
+
+    __add__, __radd__ = _forward("+"), _backward("+")
+    __sub__, __rsub__ = _forward("-"), _backward("-")
+    __mul__, __rmul__ = _forward("*"), _backward("*")
+    __truediv__, __rtruediv__ = _forward("/"), _backward("/")
 
     def __pos__(self) -> Recorded:
         return self
@@ -194,32 +220,8 @@ class Recorded:
     def __abs__(self) -> Recorded:
         return self.recorder.apply("magnitude", self)
 
-    def __add__(self, other: Any) -> Recorded:
-        return NotImplemented if _takes_over(other) else self.recorder.apply("+", self, other)
-
-    def __sub__(self, other: Any) -> Recorded:
-        return NotImplemented if _takes_over(other) else self.recorder.apply("-", self, other)
-
     def __pow__(self, exponent: int) -> Any:
         return whole_power(self, exponent)
-
-    def __mul__(self, other: Any) -> Recorded:
-        return NotImplemented if _takes_over(other) else self.recorder.apply("*", self, other)
-
-    def __truediv__(self, other: Any) -> Recorded:
-        return NotImplemented if _takes_over(other) else self.recorder.apply("/", self, other)
-
-    def __radd__(self, other: Any) -> Recorded:
-        return self.recorder.apply("+", other, self)
-
-    def __rsub__(self, other: Any) -> Recorded:
-        return self.recorder.apply("-", other, self)
-
-    def __rmul__(self, other: Any) -> Recorded:
-        return self.recorder.apply("*", other, self)
-
-    def __rtruediv__(self, other: Any) -> Recorded:
-        return self.recorder.apply("/", other, self)
 
     def __ge__(self, other: Any) -> Recorded:
         return self.recorder.apply(">=", self, other)
