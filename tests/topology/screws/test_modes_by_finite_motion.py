@@ -167,6 +167,7 @@ def test_of_a_shaky_mechanism_the_finite_motion_is_said():
     assert {item.freedoms for item in outcomes(texts)} == {3}
 
 
+@pytest.mark.deep
 def test_a_shaky_mechanism_with_inner_loops_moves_as_finite_steps_do():
     bar = "{R[x] R[x] R[x] | R[x] R[x] R[x]} P[x] P[0.6,0.8,0] R[0.6,0.8,0]"
     texts = [bar, bar.replace("x", "y"), bar]
