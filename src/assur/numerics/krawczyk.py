@@ -33,8 +33,9 @@ Equations = Callable[[Any, tuple[Any, ...]], Sequence[Any]]
 SMALL = 6
 """Unknowns up to which an image may be worked out by a program, whose length grows with their cube."""
 
-NARROWINGS = 4
-"""Images by which a box is made as narrow as rounding lets it: each takes its width to the square, nearly."""
+NARROWINGS, NARROW = 4, 1e-13
+"""Images by which a box is made as narrow as rounding lets it: each takes its width to the square, nearly. And the
+width, as a part of its largest coordinate, at which rounding has been reached."""
 
 INFLATION = 0.1
 """Part of its width by which a box is widened before it is tested: a zero on its border is then inside."""
@@ -133,6 +134,8 @@ def tightened(equations: Equations, box: Interval) -> Interval:
         narrowed, apart = common(image(equations, box), box)
         usable = narrowed.defined & ~apart
         box = Interval(np.where(usable, narrowed.low, box.low), np.where(usable, narrowed.high, box.high), box.defined)
+        if np.all(np.max(box.width, axis=-1) <= NARROW * np.max(box.magnitude, axis=-1)):
+            break
     return box
 
 

@@ -79,12 +79,11 @@ def test_two_cylinders_that_are_not_parallel_bound_what_lies_in_both():
             for part, item in zip(away, (one, other), strict=True)
         ]
         both = points[inside[0] & inside[1]]
-        for coordinate in range(3):
-            bounds = _by_both(coordinate, one, other)
-            if bounds is not None and len(both):
-                assert np.all(np.abs(both[:, coordinate] - bounds[0]) <= bounds[1])
+        bounds = _by_both(one, other)
+        if bounds is not None:
+            assert np.all(np.abs(both - bounds[0]) <= bounds[1])
     parallel = ReachBound(np.ones(3), 5.0, one.axis)
-    assert _by_both(0, one, parallel) is None
+    assert _by_both(one, parallel) is None
 
 
 def test_a_shorter_limb_makes_a_smaller_box():

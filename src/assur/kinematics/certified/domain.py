@@ -61,13 +61,14 @@ def pose_box(record: MechanismRecord, inputs: FloatArray) -> tuple[FloatArray, F
         return None
     regions = tuple(reaches(record, inputs))
     low, high = np.empty(len(record.platform.pose)), np.empty(len(record.platform.pose))
+    both = [bounds for one, other in combinations(regions, 2) if (bounds := _by_both(one, other))]
     for k, name in enumerate(record.platform.pose):
         if is_angle(name):
             low[k], high[k] = (
                 (-HALF_TURN / 2, HALF_TURN / 2) if name == "theta" else (BEGINNING, BEGINNING + 2 * HALF_TURN)
             )
             continue
-        bounds = _along(LENGTHS.index(name), regions)
+        bounds = _along(LENGTHS.index(name), regions, both)
         if bounds is None:
             return None
         low[k], high[k] = bounds
@@ -160,7 +161,9 @@ def _other(joint: Joint, link: str) -> str:
     return joint.child if link == joint.parent else joint.parent
 
 
-def _along(coordinate: int, regions: tuple[ReachBound, ...]) -> tuple[float, float] | None:
+def _along(
+    coordinate: int, regions: tuple[ReachBound, ...], both: list[tuple[FloatArray, FloatArray]]
+) -> tuple[float, float] | None:
     """Bounds of a coordinate of the platform's point, or None.
 
     A ball bounds it, a cylinder whose axis has exactly no part along it, and two cylinders that are not parallel.
@@ -170,7 +173,7 @@ def _along(coordinate: int, regions: tuple[ReachBound, ...]) -> tuple[float, flo
         for item in regions
         if item.axis is None or item.axis[coordinate] == 0.0
     ]
-    found += [pair for one, other in combinations(regions, 2) if (pair := _by_both(coordinate, one, other))]
+    found += [(float(middle[coordinate]), float(spread[coordinate])) for middle, spread in both]
     if not found:
         return None
     spare = [spread + SPARE * (spread + abs(middle)) for middle, spread in found]
@@ -179,30 +182,25 @@ def _along(coordinate: int, regions: tuple[ReachBound, ...]) -> tuple[float, flo
     return low, high
 
 
-def _by_both(coordinate: int, one: ReachBound, other: ReachBound) -> tuple[float, float] | None:
-    """Middle and spread of a coordinate of a point in two regions, or None where they do not bound the space together.
+def _by_both(one: ReachBound, other: ReachBound) -> tuple[FloatArray, FloatArray] | None:
+    """Middle (3,) and spread (3,) of a point in two regions, or None where they do not bound the space together.
 
-    The coordinate is a weighted sum of places along the rows, along which each region is bounded, and of a rest that
+    A coordinate is a weighted sum of places along the rows, along which each region is bounded, and of a rest that
     rounding leaves. The rows span the space, so that the point is not farther than their places allow, and the rest
     times that distance is added.
     """
-    rows = np.concatenate([_across(one), _across(other)])
+    parts = (_across(one), _across(other))
+    rows, first = np.concatenate(parts), len(parts[0])
     smallest = float(np.linalg.svd(rows, compute_uv=False)[2])
     if smallest < DEPENDENT:
         return None
-    direction = np.eye(3)[coordinate]
-    weights = np.linalg.lstsq(rows.T, direction, rcond=None)[0]
-    places = np.concatenate([_across(item) @ item.centre for item in (one, other)])
+    weights = np.linalg.lstsq(rows.T, np.eye(3), rcond=None)[0]  # (rows, coordinates)
+    places = np.concatenate([parts[0] @ one.centre, parts[1] @ other.centre])
     farthest = (float(np.linalg.norm(places)) + one.radius + other.radius) / smallest
-    rest = float(np.linalg.norm(rows.T @ weights - direction) + SKEW * np.sum(np.abs(weights)))
-    spread = _size(weights, np.array([one.radius, other.radius]), len(_across(one)))
-    return float(weights @ places), spread + rest * farthest + SPARE * float(np.abs(weights) @ np.abs(places))
-
-
-def _size(weights: FloatArray, radii: FloatArray, first: int) -> float:
-    """How far a weighted sum of places reaches, the `first` ones being in a ball of the first radius."""
-    parts = (weights[:first], weights[first:])
-    return sum(float(np.linalg.norm(part) * radius) for part, radius in zip(parts, radii, strict=True))
+    rest = np.linalg.norm(rows.T @ weights - np.eye(3), axis=0) + SKEW * np.sum(np.abs(weights), axis=0)
+    sizes = [np.linalg.norm(part, axis=0) for part in (weights[:first], weights[first:])]
+    spread = sizes[0] * one.radius + sizes[1] * other.radius
+    return places @ weights, spread + rest * farthest + SPARE * (np.abs(places) @ np.abs(weights))
 
 
 def _across(region: ReachBound) -> FloatArray:

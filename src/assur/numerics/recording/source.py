@@ -13,11 +13,7 @@ from pathlib import Path
 from assur.numerics.recording.tape import LOGICAL, Operation, Tape
 
 GROUP = 16
-"""Elements of a group where there are few outputs, and elements that are moved at a time."""
-LONG, MANY = 256, 20
-"""Elements of a group where there are more outputs: each then goes on for a while in one page of memory."""
-PAD = 8
-"""Elements between rows of a long group, which would share few places in the cache if they began at powers of two."""
+"""Elements of a group: the rows of all inputs and outputs then lie in the nearest cache, also where there are many."""
 
 _TEXT = {
     "+": "{0} + {1}",
@@ -44,20 +40,17 @@ def source(tape: Tape) -> str:
     True
     """
     places, varying = places_of(tape), len(tape.varying)
-    size, pitch = group_size(tape)
     before, inside = _statements(tape)
     for k, place in {tape.outputs[name]: place for name, place in places.items()}.items():
         value = f"1.0 if v{k} else 0.0" if tape.operations[k].name in LOGICAL else f"v{k}"
-        inside.append(f"group[{place * pitch} + i] = {value}")
+        inside.append(f"group[{place * GROUP} + i] = {value}")
     height = varying + len(set(places.values()))
     return _FRAME.format(
         version=_storing_version(),
-        size=height * pitch,
+        size=height * GROUP,
         before="\n    ".join(before),
         inside="\n            ".join(inside),
         varying=varying,
-        count=size,
-        pitch=pitch,
         step=GROUP,
     )
 
@@ -78,56 +71,46 @@ def loop(given, width, uniform, numbers, truths, length, number_rows, truth_rows
     group = np.zeros({size})
     odd = 0
     {before}
-    for first in range(start, stop, {count}):
-        count = min({count}, stop - first)
-        whole = count // {step} * {step}
+    for first in range(start, stop, {step}):
+        count = min({step}, stop - first)
+        whole = count == {step}
         for row in range({varying}):
-            for k in range(0, whole, {step}):
-                moved(given, row * width + first + k, group, row * {pitch} + k)
-            for i in range(whole, count):
-                group[row * {pitch} + i] = given[row * width + first + i]
-        for i in range({count}):
-            {inside}
-        begin = shift + first
-        for row in range(len(number_rows)):
-            at, to = number_rows[row] * {pitch}, row * length + begin
-            if streaming:
-                for k in range(0, whole, {step}):
-                    streamed(group, at + k, numbers, to + k)
+            at, to = row * width + first, row * {step}
+            if whole:
+                moved(given, at, group, to)
             else:
-                for k in range(0, whole, {step}):
-                    moved(group, at + k, numbers, to + k)
-            for i in range(whole, count):
-                numbers[to + i] = group[at + i]
+                for i in range(count):
+                    group[to + i] = given[at + i]
+        for i in range({step}):
+            {inside}
+        for row in range(len(number_rows)):
+            at, to = number_rows[row] * {step}, row * length + shift + first
+            if not whole:
+                for i in range(count):
+                    numbers[to + i] = group[at + i]
+            elif streaming:
+                streamed(group, at, numbers, to)
+            else:
+                moved(group, at, numbers, to)
         for row in range(len(truth_rows)):
-            at, to = truth_rows[row] * {pitch}, row * length + begin
-            for k in range(0, whole, {step}):
-                judged(group, at + k, truths, to + k)
-            for i in range(whole, count):
-                truths[to + i] = group[at + i] > 0.5
+            at, to = truth_rows[row] * {step}, row * length + shift + first
+            if whole:
+                judged(group, at, truths, to)
+            else:
+                for i in range(count):
+                    truths[to + i] = group[at + i] > 0.5
     return odd
 """
 
 
-def group_size(tape: Tape) -> tuple[int, int]:
-    """Elements of a group, and places from one row of its buffer to the next.
-
-    >>> from assur.numerics.recording.tape import Recorder
-    >>> recorder = Recorder()
-    >>> group_size(recorder.tape({"x": recorder.varying("x")}))
-    (16, 16)
-    """
-    return (GROUP, GROUP) if len(tape.outputs) <= MANY else (LONG, LONG + PAD)
-
-
 def _statements(tape: Tape) -> tuple[list[str], list[str]]:
     """Lines before the loop, of what is the same for all elements, and lines inside."""
-    once, pitch = _uniform_entries(tape), group_size(tape)[1]
+    once = _uniform_entries(tape)
     before, inside = [], []
     varying, uniform = 0, 0
     for k, operation in enumerate(tape.operations):
         if operation.name == "varying":
-            inside += [f"v{k} = group[{varying * pitch} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
+            inside += [f"v{k} = group[{varying * GROUP} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
             varying += 1
         elif operation.name == "uniform":
             before.append(f"v{k} = uniform[{uniform}]")
