@@ -61,7 +61,7 @@ def pose_box(record: MechanismRecord, inputs: FloatArray) -> tuple[FloatArray, F
         return None
     regions = tuple(reaches(record, inputs))
     low, high = np.empty(len(record.platform.pose)), np.empty(len(record.platform.pose))
-    both = [bounds for one, other in combinations(regions, 2) if (bounds := _by_both(one, other))]
+    both = [known for one, other in combinations(regions, 2) if (known := _by_both(one, other))]
     for k, name in enumerate(record.platform.pose):
         if is_angle(name):
             low[k], high[k] = (
