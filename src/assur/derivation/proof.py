@@ -19,6 +19,7 @@ from assur.derivation.polynomial_identities import PolynomialIdentities, polynom
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import without_identities
 from assur.derivation.strokes import StrokeVector, stroke_vectors
+from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import (
     DerivationProof,
     ProvedOrientation,
@@ -110,7 +111,9 @@ class _Proof:
 
     def _reasons(self) -> Iterator[ProvedReason]:
         for own in self.solution.placed.reasons:
-            yield ProvedReason(own.link, own.carrier, _vector(own.first), _vector(own.second), _matrix(own.constant))
+            third = ABSENT if own.third is None else _vector(own.third)
+            first, second = _vector(own.first), _vector(own.second)
+            yield ProvedReason(own.link, own.carrier, first, second, _matrix(own.constant), third)
 
     def _named_lengths(self) -> dict[str, str]:
         coordinates = self.solution.symbols.record.coordinates

@@ -31,7 +31,7 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
     >>> [*without_identities(analytic_solution(load_record("h4_robot"), "direct"))]
-    ['links that do not turn because three directions close']
+    []
     """
     placed, loops = solution.placed, solution.loops
     if placed.named.definitions:
@@ -44,5 +44,3 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
         yield "sliders oblique to the axis about which they turn"
     if loops.framed:
         yield "loops in the frame of a link that turns"
-    if any(own.third is not None for own in placed.reasons):
-        yield "links that do not turn because three directions close"

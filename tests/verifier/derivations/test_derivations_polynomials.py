@@ -77,6 +77,20 @@ def test_polynomials_of_drafts_are_verified_exactly(name, tmp_path, capsys):
     assert (proved.branches, proved.closed) == (degree, degree)
 
 
+@pytest.mark.deep
+def test_links_that_three_directions_hold_are_verified_with_the_way_that_is_taken(capsys):
+    document = json.loads(proof_of("h4_robot", capsys))
+    (proved,) = verified(document, "h4_robot")
+    assert (proved.branches, proved.closed, proved.ways) == (8, 8, ("bar2 against bar1",))
+    reason, _ = document["problems"][0]["proof"]["reasons"]
+    for third in (["0", "0", "1"], ["1", "0", "0"], None):  # along the first, the second; and without it
+        reason["third"] = third
+        if third is None:
+            del reason["third"]
+        with pytest.raises(RefusedError, match="bar2"):
+            verified(document, "h4_robot")
+
+
 def set_of(problem):
     return problem["sets"][0], problem["proof"]["sets"][0]
 

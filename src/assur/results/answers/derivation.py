@@ -82,13 +82,17 @@ class ProvedOrientation:
 
 @dataclass(frozen=True)
 class ProvedReason:
-    """A link hangs on its carrier by axes along `first` and along `second`; so it is turned by `constant` alone."""
+    """A link hangs on its carrier by axes along `first` and along `second`; so it is turned by `constant` alone.
+
+    Where axes along `third` carry those along `second`, it may be turned in one way more.
+    """
 
     link: str
     carrier: str
     first: tuple[str, ...]
     second: tuple[str, ...]
     constant: tuple[tuple[str, ...], ...]
+    third: tuple[str, ...] | Absent = ABSENT
 
 
 @dataclass(frozen=True)
@@ -236,13 +240,15 @@ class DerivationAnswer(Answer):
 class VerifiedProblem:
     """What is proved of one problem: its branches, of which `closed` were held against the joint graph, and where.
 
-    They are all where `conditions` hold and the parallelograms `assumed` stay such.
+    They are all where `conditions` hold and the parallelograms `assumed` stay such. Links of `ways`, "<link> against
+    <carrier>", may stand in two ways, of which one is taken.
     """
 
     problem: str
     branches: int
     conditions: tuple[str, ...]
     assumed: tuple[str, ...]
+    ways: tuple[str, ...]
     closed: int
 
 

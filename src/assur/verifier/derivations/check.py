@@ -37,6 +37,7 @@ class ProvedProblem:
         branches: how many.
         conditions: what must not vanish, as written.
         assumed: parallelograms of the file that are taken to stay such.
+        ways: "<link> against <carrier>" of links of whose two ways to stand one is taken.
         closed: branches that were held against the joint graph.
     """
 
@@ -44,6 +45,7 @@ class ProvedProblem:
     branches: int
     conditions: tuple[str, ...]
     assumed: tuple[str, ...]
+    ways: tuple[str, ...]
     closed: int
 
 
@@ -128,7 +130,8 @@ class _ProblemCheck(KnownFormulas):
 
     def findings(self) -> ProvedProblem:
         """What is proved."""
-        turns = OrientationCheck(self.assembly, self, self.proof).turns()
+        orientations = OrientationCheck(self.assembly, self, self.proof)
+        turns = orientations.turns()
         self._unknowns(turns)
         self._loops(turns)
         if len(self.problem["sets"]) != len(self.proof["sets"]):
@@ -144,7 +147,7 @@ class _ProblemCheck(KnownFormulas):
             raise RefusedError(f"{self.problem['branches']} branches are claimed, {count} follow of the roots")
         checked = closing_branches(self.mechanism, self.problem, self.conditions)
         assumed = tuple(own.name for own in self.mechanism.parallelograms)
-        return ProvedProblem(self.name, count, tuple(self.conditions), assumed, checked)
+        return ProvedProblem(self.name, count, tuple(self.conditions), assumed, tuple(orientations.ways), checked)
 
     # unknowns and loops
 

@@ -20,11 +20,15 @@ class OrientationCheck:
         assembly: the joint graph; reasons that hold are added to its hops.
         formulas: by which texts are read.
         proof: as it is written.
+
+    Attributes:
+        ways: links that may stand in one way more than they are said to, "<link> against <carrier>".
     """
 
     def __init__(self, assembly: FileAssembly, formulas: KnownFormulas, proof: Mapping[str, Any]) -> None:
         self.assembly, self.mechanism, self.formulas, self.proof = assembly, assembly.mechanism, formulas, proof
         self.zero = formulas.zero
+        self.ways: list[str] = []
 
     def _vector(self, parts: Any) -> Vector:
         x, y, z = (_plain(self.formulas.read(part)) for part in parts)
@@ -76,15 +80,37 @@ class OrientationCheck:
     def _reason(self, reason: Mapping[str, Any]) -> None:
         """A link that hangs on another along two directions does not turn against it."""
         carrier, link, constant = str(reason["carrier"]), str(reason["link"]), self._matrix(reason["constant"])
-        axes = self._vector(reason["first"]), self._vector(reason["second"])
-        across = [self.zero(part) for part in cross(*axes)]
-        fine = not all(across) and is_rotation(constant, self.zero)
-        for axis in axes:
-            own = self._reached(carrier, axis).get(link)
-            fine = fine and own is not None and fixes(product(constant, transposed(own)), axis, self.zero)
+        first, second = self._vector(reason["first"]), self._vector(reason["second"])
+        fine = is_rotation(constant, self.zero) and self._turned_about(first, carrier, link, constant)
+        if "third" in reason:
+            fine = fine and self._triangle(first, second, self._vector(reason["third"]), carrier, link, constant)
+            self.ways.append(f"{link} against {carrier}")
+        else:
+            across = [self.zero(part) for part in cross(first, second)]
+            fine = fine and not all(across) and self._turned_about(second, carrier, link, constant)
         if not fine:
             raise RefusedError(f"the joints do not say that {link} does not turn against {carrier}")
         self.assembly.hops.append(Hop(carrier, link, constant))
+
+    def _turned_about(self, axis: Vector, carrier: str, link: str, constant: Matrix) -> bool:
+        """Whether a link turns against its carrier about a direction alone, and is there by `constant` as it turns."""
+        own = self._reached(carrier, axis).get(link)
+        return own is not None and fixes(product(constant, transposed(own)), axis, self.zero)
+
+    def _triangle(self, u: Vector, w: Vector, v: Vector, carrier: str, link: str, constant: Matrix) -> bool:
+        """Whether some link turns about v against the carrier and about w against the link, which `constant` lets meet.
+
+        Rot(u, a) Rot(w, c) M = Rot(v, b), and M = Rot(w, c') Rot(v, b') where w . M v = w . v. So v . Rot(u, a) w is as
+        it is at a = 0, which a has two values for where u, v and w are independent.
+        """
+        on_carrier, on_link = self._reached(carrier, v), self._reached(link, apply(transposed(constant), w))
+        between = (
+            product(product(constant, on_link[own]), transposed(on_carrier[own]))
+            for own in on_carrier
+            if own in on_link
+        )
+        meet = any(self.zero(dot(w, subtract(apply(turn, v), v))) for turn in between)
+        return meet and not self.zero(dot(u, cross(v, w)))
 
     def _on_circle(self, turn: ClaimedTurn, axis: Vector, turns: Mapping[str, ClaimedTurn]) -> bool:
         """It turns about the axis alone, as far as the first link does that has the same unknowns."""
