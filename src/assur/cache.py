@@ -88,7 +88,7 @@ def keep(kind: str, name: str, data: bytes) -> Path:
     """
     path = cache_folder() / kind / name
     path.parent.mkdir(parents=True, exist_ok=True)
-    replace_file(path, data)
+    replace_file(path, data, lasting=False)  # who reads it knows by what it says whether it is whole
     folder, most = cache_folder(), limit()
     _since_trimmed[folder] = _since_trimmed.get(folder, most) + len(data)
     if _since_trimmed[folder] >= UNTRIMMED * most:

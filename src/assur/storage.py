@@ -27,15 +27,18 @@ _LONGEST = 100
 """Characters of a name that are repeated beside it: names have 255 bytes at most."""
 
 
-def replace_file(path: Path, data: bytes) -> None:
-    """Put data in the place of a file, or raise an `OSError` and leave what was there before."""
-    with beside(path) as stream:
+def replace_file(path: Path, data: bytes, *, lasting: bool = True) -> None:
+    """Put data in the place of a file, or raise an `OSError` and leave what was there before.
+
+    What is not `lasting` is not waited for until it is on the disk: after a failure of power it may be there in part.
+    """
+    with beside(path, lasting=lasting) as stream:
         stream.write(data)
 
 
 @contextlib.contextmanager
-def beside(path: Path) -> Iterator[IO[bytes]]:
-    """A file beside another one, which it replaces at the end of the block, once it is on the disk.
+def beside(path: Path, *, lasting: bool = True) -> Iterator[IO[bytes]]:
+    """A file beside another one, which it replaces at the end of the block, once it is on the disk if it is to last.
 
     Where the block raises, what was there before is unchanged.
     """
@@ -45,10 +48,12 @@ def beside(path: Path) -> Iterator[IO[bytes]]:
         with stream:
             yield stream
             stream.flush()
-            os.fsync(stream.fileno())
+            if lasting:
+                os.fsync(stream.fileno())
             temporary.chmod(0o644)
             temporary.replace(path)
-        sync_folder(path.parent)
+        if lasting:
+            sync_folder(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
 

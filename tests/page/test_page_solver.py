@@ -135,8 +135,10 @@ def test_the_stored_numbers_are_what_python_says(tmp_path):
 
 
 @pytest.mark.node
-def test_the_pages_own_tests_pass(node):
+@pytest.mark.parametrize("deep", ["", pytest.param("yes", marks=pytest.mark.deep)])
+def test_the_pages_own_tests_pass(node, monkeypatch, deep):
     """By node's own runner, on the sources that the bundle is built from."""
+    monkeypatch.setenv("ASSUR_DEEP", deep)
     files = sorted(map(str, (WEB / "test").glob("*.test.js")))
     assert len(files) > 3
     done = subprocess.run(

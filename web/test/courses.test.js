@@ -58,9 +58,13 @@ test("a course keeps away from limits: one a quarter larger would fit too", () =
   const [circle] = coursesOf(it);
   const [largest] = circle.sizes;
   assert.equal(followedCourse(it, circle).size, largest);
-  const inputs = [0, 1, 2, 3].flatMap((way) =>
-    Array.from({ length: 61 }, (_, k) => toPose(it.model, it.values, circle.at(k / 60, 1.02 * largest, way), {}).values),
-  );
+  const inputs = [0, 1, 2, 3].flatMap((way) => {
+    let { values } = it;
+    return Array.from({ length: 61 }, (_, k) => {
+      ({ values } = toPose(it.model, values, circle.at(k / 60, 1.02 * largest, way), {}));
+      return values;
+    });
+  });
   it.model.inputs.forEach((item) => {
     const values = inputs.map((joints) => item.sign * joints[item.index] + item.offset);
     item.stroke = [Math.min(...values), Math.max(...values)];
