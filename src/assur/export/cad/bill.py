@@ -9,6 +9,7 @@ import csv
 import io
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,11 +34,12 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
     """
     millimetre = 1e3 * METRES[record.unit]
     made = bodies(record)
-    alike: list[list[LinkBody]] = []
+    alike: list[tuple[_Form, list[LinkBody]]] = []
     for body in (item for item in made if item.fused):
-        group = next((group for group in alike if _same(_form(group[0]), _form(body))), None)
+        form = _form(body)
+        group = next((group for first, group in alike if _same(first, form)), None)
         if group is None:
-            alike.append([body])
+            alike.append((form, [body]))
         else:
             group.append(body)
     rows = [
@@ -46,9 +48,9 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
             ", ".join(_counted(_words(item, millimetre) for item in group[0].fused)),
             len(group),
             tuple(item.link for item in group),
-            round(fused(group[0]).volume() * millimetre**3, 1),
+            round(form.volume * millimetre**3, 1),
         )
-        for group in alike
+        for form, group in alike
     ]
     bought: dict[str, list[str]] = {}
     for joint in record.joints.values():
@@ -75,20 +77,30 @@ def bill_csv(rows: Iterable[BillRow]) -> str:
     return stream.getvalue()
 
 
-def _form(body: LinkBody) -> tuple[tuple[str, ...], FloatArray]:
-    """Equal for links that are alike or mirrored: roles of the parts; their sizes, distances and the volume."""
+@dataclass(frozen=True, eq=False)
+class _Form:
+    """What is equal for links that are alike or mirrored: roles of the parts; their sizes and distances; the volume."""
+
+    roles: tuple[str, ...]
+    sizes: FloatArray
+    volume: float
+
+
+def _form(body: LinkBody) -> _Form:
     listed = sorted((f"{item.role} {item.shape.kind}", _sizes(item.shape)) for item in body.fused)
     middles = np.array([corners(item.shape).mean(axis=0) for item in body.fused])
     gaps = np.sort(np.linalg.norm(middles[:, None] - middles, axis=2).ravel())
     sizes = [value for _, own in listed for value in own]
     bores = np.sort([_sizes(item)[0] for item in body.bores])  # their lengths beyond the link do not matter
-    return tuple(role for role, _ in listed), np.array([*sizes, *gaps, *bores, np.cbrt(fused(body).volume())])
+    volume = fused(body).volume()
+    return _Form(tuple(role for role, _ in listed), np.array([*sizes, *gaps, *bores, np.cbrt(volume)]), volume)
 
 
-def _same(first: tuple[tuple[str, ...], FloatArray], second: tuple[tuple[str, ...], FloatArray]) -> bool:
+def _same(first: _Form, second: _Form) -> bool:
     """Whether two forms are equal, but for rounding."""
-    same = first[0] == second[0] and len(first[1]) == len(second[1])
-    return same and bool(np.allclose(first[1], second[1], rtol=1e-6, atol=1e-6 * float(first[1].max())))
+    if first.roles != second.roles or len(first.sizes) != len(second.sizes):
+        return False
+    return bool(np.allclose(first.sizes, second.sizes, rtol=1e-6, atol=1e-6 * float(first.sizes.max())))
 
 
 def _sizes(shape: Shape) -> tuple[float, ...]:
