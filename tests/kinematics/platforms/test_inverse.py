@@ -33,7 +33,7 @@ DRAFTS = {
     "4UPS&UPU": ["--chain", "U[x,y] P[z] U[x,y]", *["--chain", "U P S"] * 4],
     "spherical": ["--limb", "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O", "--count", "3"],
 }
-QUICK = ("spherical", "3-RPS", "ball screws")
+QUICK = ("spherical", "3-RPS")
 
 
 @pytest.fixture(
