@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from assur.joints.cylindrical import CYLINDRICAL
@@ -42,7 +43,7 @@ class LimbType:
     driven: int
     key: Key
 
-    @property
+    @cached_property
     def joints(self) -> int:
         """Joints; a U and a P(4R) count as one."""
         return len(self.chain.elements)
@@ -57,7 +58,7 @@ class LimbType:
         """Place of the driven freedom among the freedoms of the limb; the translation of a C comes first."""
         return sum(joint.freedoms for joint in self.chain.joints[: self.driven])
 
-    @property
+    @cached_property
     def parallelograms(self) -> int:
         """Number of P(4R)."""
         return sum(isinstance(element, Parallelogram) for element in self.chain.elements)
