@@ -1,5 +1,7 @@
 """The whole topology of a linkage: both routes, modes, and linkages that POC theory does not represent."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from assur.errors import UsageError
 from assur.joints.revolute import REVOLUTE
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse, sample
+from assur.topology.counting.inputs import numbered_inputs
 from assur.topology.notation import parse_chains
 from assur.topology.screws.linkage import Linkage, LinkageJoint
 from assur.topology.screws.placing import place
@@ -98,9 +101,39 @@ def test_bennetts_loop_is_refused_with_the_reason_and_not_answered():
     assert "Bennett" in raised.value.hint
 
 
-def test_more_actuated_joints_than_freedoms_are_refused():
-    with pytest.raises(UsageError, match="4 actuated joints"):
-        assur.topology(PAPER, actuate=["1.1", "1.4", "2.1", "1.2"])
+def test_inputs_of_what_does_not_move_are_refused():
+    with pytest.raises(UsageError, match=r"3 actuated joints \(R1, R4, R7\) for 0 degrees of freedom"):
+        assur.topology(["R[z] R[z] R[0.6,0,0.8]"] * 3, actuate=["1.1", "2.1", "3.1"])
+
+
+PLANAR = ["R[z] R[z] R[z]"] * 4
+UPR_RPU = [*["R[x]@O R[y] P[z] R[y]"] * 2, *["R[x] P[z] R[x] R[y]@B"] * 2]
+
+
+@pytest.mark.parametrize(
+    ("limbs", "actuate", "redundancy"),
+    [
+        (PLANAR, "1.1,2.1,3.1,4.1", 1),
+        (PLANAR, "1.1,2.1,3.1,4.1,1.2", 2),
+        (PAPER, "1.1,1.4,2.1,1.2", 1),
+        (UPR_RPU, "1.3,2.3,3.2,4.2", 1),
+    ],
+    ids=["planar 4-RRR", "planar 4-RRR, five drives", "the paper's", "2UPR-2RPU"],
+)
+def test_redundant_inputs(limbs, actuate, redundancy):
+    """Each set of inputs that is said to determine the mechanism does so by itself, with the same coupling degree."""
+    found = assur.topology(limbs, actuate=actuate)
+    asked = found.actuation
+    assert (asked.verdict, asked.redundancy, found.coupling_degree) == ("redundant", redundancy, None)
+    assert "are redundant" in found.coupling_refusal
+    numbers = {numbered_inputs(parse_chains(limbs), [place])[0]: place for place in actuate.split(",")}
+    for part in found.determining:
+        alone = assur.topology(limbs, actuate=[numbers[name] for name in part.drives])
+        assert (alone.actuation.verdict, alone.coupling_degree) == ("valid", part.coupling_degree)
+        assert set(part.drives) | set(part.following) == set(asked.inputs)
+    others = set(combinations(asked.inputs, asked.needed)) - {part.drives for part in found.determining}
+    for drives in others:
+        assert assur.topology(limbs, actuate=[numbers[name] for name in drives]).actuation.verdict != "valid"
 
 
 def test_answers_do_not_depend_on_the_placing():

@@ -105,6 +105,7 @@ def _summary(record: MechanismRecord) -> SoundFacts:
         joints=len(record.joints),
         freedoms=int(usual.freedoms - usual.internal),
         internal_freedoms=int(usual.internal),
+        redundant_inputs=tuple(item.name for item in record.redundant_inputs),
         architecture=architecture_text(record),
         closed_form=record.closed_form is not None,
         closed_form_checked=own,
@@ -151,6 +152,8 @@ def _shown(data: CheckAnswer, then: Iterable[str]) -> Iterable[RenderableType]:
     spins = f" and {count(internal, 'internal freedom')}" if internal else ""
     bodies = f"{count(facts.links, 'link')}, {count(facts.joints, 'joint')}"
     yield f"{bodies}; {count(facts.freedoms, 'freedom')}{spins}"
+    if facts.redundant_inputs:
+        yield f"redundant inputs, which follow the others: {', '.join(facts.redundant_inputs)}"
     if facts.architecture:
         yield facts.architecture
     if facts.closed_form_not_run:

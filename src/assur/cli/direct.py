@@ -46,9 +46,10 @@ def direct(
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import inputs_from_border
     from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.border import input_names
+    from assur.kinematics.border import drive_names, input_names
 
-    values = numbers(inputs, input_names(record), f"inputs of {record.name}")
+    names = input_names(record) if len(inputs) == len(record.inputs) else drive_names(record)
+    values = numbers(inputs, names, f"inputs of {record.name}")
     given = inputs_from_border(record, values)
     if certify:
         from assur.cli import certified_solutions

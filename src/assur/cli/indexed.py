@@ -175,8 +175,9 @@ def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -
     factors = ", ".join(map(short, data.velocity_factors))
     if data.status == "undecided":
         yield "theta is a right angle: phi and psi have no rates of their own, so that J does not exist here"
-    yield f"condition number of J = Jp^-1 Jq, one over the local condition index: {short(data.condition_number)}"
-    yield f"velocity factors of J = Jp^-1 Jq: {factors} {data.velocity_factor_unit}".rstrip()
+    written = "(Jq^-1 Jp)^+" if record.redundant_inputs else "Jp^-1 Jq"
+    yield f"condition number of J = {written}, one over the local condition index: {short(data.condition_number)}"
+    yield f"velocity factors of J = {written}: {factors} {data.velocity_factor_unit}".rstrip()
     yield length_words(record, data.characteristic_length)
 
 

@@ -76,6 +76,8 @@ def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) ->
         yield from _open_loops(data)
         yield from _remarks(data)
         yield from _parasitic(record, data.solutions)
+        if isinstance(data, DirectAnswer):
+            yield from _following(record, data.solutions, style)
     if data.curves:
         yield from _curves(data, style)
     if data.failures:
@@ -94,7 +96,7 @@ def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[
     if own is not None:
         yield _solutions(record, data, [own], style)
     yield f"All {len(data.solutions)} are one way of each limb; --all lists them:"
-    driven = zip(data.input_names, record.inputs, strict=True)
+    driven = zip(data.input_names, record.drives, strict=True)
     units = {name: record.angle if one.coordinate.kind == "angle" else record.unit for name, one in driven}
     rows = []
     for limb in data.limbs:
@@ -237,6 +239,19 @@ def _parasitic(record: Mechanism, solutions: Iterable[PoseSolution | InputsSolut
         ("mode", *(f"{name} [{unit_of(record, name)}]" for name in names)),
         [(item.mode, *(short(item.parasitic[name]) for name in names)) for item in listed],
     )
+
+
+def _following(record: Mechanism, solutions: Iterable[PoseSolution], style: Style) -> Iterable[RenderableType]:
+    """The redundant inputs at every pose; nothing where there are none."""
+    if drives := record.redundant_inputs:
+        yield "the inputs that follow:"
+        yield table(
+            ("mode", *(style.kind_title(item.name, item.coordinate.kind) for item in drives)),
+            [
+                (each.mode, *(style.kind(item.coordinate.kind, each.following[item.name]) for item in drives))
+                for each in solutions
+            ],
+        )
 
 
 def _curves(data: Positions, style: Style) -> Iterable[RenderableType]:

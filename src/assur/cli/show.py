@@ -82,7 +82,10 @@ def description(record: Mechanism) -> MechanismAnswer:
             ShownJoint(item.name, item.alias, item.type.name, item.type.kinds, item.parent, item.child)
             for item in record.joints.values()
         ),
-        inputs=tuple(ShownInput(item.name, item.coordinate.joint, item.coordinate.kind) for item in record.inputs),
+        inputs=tuple(
+            ShownInput(item.name, item.coordinate.joint, item.coordinate.kind, item in record.redundant_inputs)
+            for item in record.drives
+        ),
         modes=ShownModes(
             {name: formula.text for name, formula in written_quantities(record, "inverse").items()},
             {name: formula.text for name, formula in written_quantities(record, "direct").items()},
@@ -118,7 +121,8 @@ def _shown(record: Mechanism, data: MechanismAnswer, style: Style) -> Iterable[R
     yield f"file     {data.file}"
     yield f"units    {data.unit}, {data.angle}"
     yield f"pose     {', '.join(data.coordinates)} of link '{data.platform}', orientation {data.orientation}"
-    yield f"inputs   {', '.join(item.name + ' (' + item.joint + ')' for item in data.inputs)}"
+    inputs = (f"{item.name} ({item.joint}{', redundant' * item.redundant})" for item in data.inputs)
+    yield f"inputs   {', '.join(inputs)}"
     yield (
         f"mobility F = {free.freedoms}{_spins(free.internal)}: "
         f"{count(len(data.joints), 'joint')}, {count(len(data.links), 'link')}, "

@@ -14,7 +14,7 @@ from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading, table
 from assur.results.answers.topology import MetMode
-from assur.results.plain_text import signed
+from assur.results.plain_text import count, signed
 from assur.topology.answers import answers, replacements_by_kind
 from assur.topology.facts import Known, Topology
 from assur.topology.met_modes import NOT_ALL
@@ -237,6 +237,11 @@ def _actuation(topology: Topology, say: Said) -> Iterator[RenderableType]:
         return
     asked = topology.actuation
     yield say(f"chosen: {', '.join(asked.inputs) or 'none'}; {asked}.")
+    for part in topology.determining:
+        follows = f"; {', '.join(part.following)} {'follows' if len(part.following) == 1 else 'follow'}"
+        yield say(f"determined by {part}{follows}")
+    if asked.verdict == "redundant":
+        yield say(f"preload: {count(asked.redundancy, 'dimension')} in {', '.join(asked.superfluous)}")
     yield f"may be actuated: {', '.join(asked.in_some) or 'none'}"
     if asked.in_every:
         yield f"in every admissible set: {', '.join(asked.in_every)}"

@@ -80,6 +80,7 @@ def crosscheck(
         UsageError: the engine is not installed. Whatever the direct and the inverse problem raise.
         Interrupted: Ctrl-C; its answer is what was compared so far.
     """
+    record = record.determined  # whose inputs' rates the engine can choose one by one
     rng = np.random.default_rng(seed)
     there = engines.engine(record, text)
     found = configurations(record, samples, rng)

@@ -184,7 +184,7 @@ def _cut(
     """
     steps = joint_steps(record, joint, model.home, forward=True, metre=model.metre)
     last = steps[-1]
-    driven = any(item.coordinate.joint == joint.name for item in record.inputs)
+    driven = any(item.coordinate.joint == joint.name for item in record.drives)
     parent, child = (_at_its_joint(model.bodies[name]) for name in (joint.parent, joint.child))
     whole = driven or last.kind == "slide" or bool(joint.pitch) or (len(steps) == 1 and not parent and not child)
     kept = steps if whole else steps[:-1]

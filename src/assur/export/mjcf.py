@@ -81,7 +81,7 @@ def printed(record: MechanismRecord, model: Bodies) -> Bodies:
     >>> bool(step.value(model.home) == leg.sign * model.metre * (leg.sign * model.home[step.index] + leg.offset))
     True
     """
-    driven = {record.coordinate_label(one.coordinate): one for one in record.inputs}
+    driven = {record.coordinate_label(one.coordinate): one for one in record.drives}
 
     def told(step: ElementaryJoint) -> ElementaryJoint:
         one = driven.get(step.name)
@@ -165,7 +165,7 @@ def _actuators(record: MechanismRecord, model: Bodies, root: Element, *, servos:
     """Motors or position servos, called by the inputs."""
     actuator = child(root, "actuator")
     mass = sum(body.mass for body in model.bodies.values())
-    for one in record.inputs:
+    for one in record.drives:
         step = model.steps[record.coordinate_label(one.coordinate)]
         arm = 1.0 if step.kind == "slide" else model.size
         gains = {"kp": number(mass * (QUICKNESS * arm) ** 2), "kv": number(2 * mass * QUICKNESS * arm**2)}
@@ -178,7 +178,7 @@ def _actuators(record: MechanismRecord, model: Bodies, root: Element, *, servos:
 def _home(record: MechanismRecord, model: Bodies, root: Element, *, servos: bool) -> None:
     """The key of that name: every joint, then every control: of a servo the printed input, of a motor no force."""
     places = [[1.0, 0.0, 0.0, 0.0] if step.kind == "ball" else [step.home] for step in _ordered(model)]
-    lengths = [one.sign * model.steps[record.coordinate_label(one.coordinate)].home for one in record.inputs]
+    lengths = [one.sign * model.steps[record.coordinate_label(one.coordinate)].home for one in record.drives]
     controls = np.array(lengths) if servos else np.zeros(len(lengths))
     child(child(root, "keyframe"), "key", name="home", qpos=numbers(np.concatenate(places)), ctrl=numbers(controls))
 

@@ -42,7 +42,7 @@ def sdf(record: MechanismRecord) -> str:
     root = ElementTree.Element("sdf", version=VERSION)
     top = child(root, "model", name=record.name)
     comment(top, f"{record.title}; {NOTE}")
-    inputs = ", ".join(f"{item.name} = joint {record.coordinate_label(item.coordinate)}" for item in record.inputs)
+    inputs = ", ".join(f"{item.name} = joint {record.coordinate_label(item.coordinate)}" for item in record.drives)
     comment(top, f"inputs: {inputs}")
     placed = {link: (rotation, model.metre * origin) for link, (rotation, origin) in frames(record, model.home).items()}
     links = {link: names.new(link, "link") for link in record.links}

@@ -66,7 +66,7 @@ def sidecar(record: MechanismRecord, urdf_name: str) -> dict[str, Any]:
                 "sign": item.sign,
                 "offset": item.offset * (model.metre if item.coordinate.kind == "length" else 1.0),
             }
-            for item in record.inputs
+            for item in record.drives
         ],
         "platform": {"link": link_name(record.platform.link), "position": _place(record, model)},
     }

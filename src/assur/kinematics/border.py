@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.pose import pose_error
-from assur.kinematics.turns import periodic_inputs
-from assur.model.mechanism import MechanismRecord
+from assur.kinematics.turns import periodic, periodic_inputs
+from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics import rotations
 
@@ -110,8 +110,23 @@ def in_range(record: MechanismRecord, poses: FloatArray) -> FloatArray:
 
 
 def input_names(record: MechanismRecord) -> tuple[str, ...]:
-    """Printed names of the inputs."""
+    """Printed names of the inputs that determine the mechanism."""
     return tuple(driven.name for driven in record.inputs)
+
+
+def drive_names(record: MechanismRecord) -> tuple[str, ...]:
+    """Printed names of every input, those that follow last."""
+    return tuple(driven.name for driven in record.drives)
+
+
+def checked_inputs(record: MechanismRecord, values: Named) -> FloatArray:
+    """Inputs (..., n), or every input (..., d) where redundant ones are given too, as `checked`."""
+    names = drive_names(record)
+    if record.redundant_inputs:
+        few = not isinstance(values, Mapping) and np.shape(values)[-1:] == (len(record.inputs),)
+        if few or (isinstance(values, Mapping) and not set(values) & {item.name for item in record.redundant_inputs}):
+            names = input_names(record)
+    return checked(values, names, f"inputs of {record.name}")
 
 
 def input_components(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
@@ -136,6 +151,11 @@ def inputs_of(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """Printed inputs (..., n) at joint values (..., coordinates)."""
     columns = [driven.printed(joints[..., driven.coordinate.index]) for driven in record.inputs]
     return np.stack(columns, axis=-1)
+
+
+def drives_of(record: MechanismRecord, joints: FloatArray) -> FloatArray:
+    """Every printed input (..., d), those that follow last, at joint values (..., coordinates)."""
+    return np.stack([driven.printed(joints[..., driven.coordinate.index]) for driven in record.drives], axis=-1)
 
 
 def held_inputs(record: MechanismRecord, joints: FloatArray, inputs: FloatArray) -> FloatArray:
@@ -189,13 +209,18 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
 
     Rotations count times the characteristic length.
     """
-    length = characteristic_length(record)
-    gaps = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1)
-    for k, (driven, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
+    away = np.max(np.abs(pose_error(record, joints, poses, characteristic_length(record))), axis=-1)
+    return np.asarray(np.maximum(away, input_distance(record, record.inputs, joints, inputs)))
+
+
+def input_distance(
+    record: MechanismRecord, drives: Sequence[Input], joints: FloatArray, inputs: FloatArray
+) -> FloatArray:
+    """How far joint values (N, coordinates) are from printed inputs (N, k) of k drives, in length units, as above."""
+    length, gaps = characteristic_length(record), np.zeros(len(joints))
+    for k, driven in enumerate(drives):
         gap = np.abs(driven.printed(joints[:, driven.coordinate.index]) - inputs[:, k])
-        if same:
+        if periodic(record)[driven.coordinate.index]:
             gap = np.abs(rotations.nearest_turn(gap))
-        if driven.coordinate.kind == "angle":
-            gap = length * gap
-        gaps = np.maximum(gaps, gap)
-    return np.asarray(gaps)
+        gaps = np.maximum(gaps, length * gap if driven.coordinate.kind == "angle" else gap)
+    return gaps

@@ -87,7 +87,7 @@ def stated_limits(
     ['stroke of rho2', 'stroke of rho3']
     """
     given, driven = strokes or {}, []
-    for item in record.inputs:
+    for item in record.drives:
         stroke, place = given.get(item.name, item.stroke), item.coordinate
         if stroke is not None:
             angular = place.kind == "angle"

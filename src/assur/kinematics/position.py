@@ -38,7 +38,8 @@ def direct(
 
     Args:
         record: the mechanism.
-        inputs: as printed.
+        inputs: as printed; where the file has redundant ones they may be given too, and only poses that have them
+            answer.
         mode: an assembly mode; all of them by default.
         method: "closed form"; on the joint graph "loops", one after another as the theory orders them, complete where
             it says so, or "search" from many starts, never known to be complete. By default the
@@ -62,8 +63,14 @@ def direct(
     >>> next(iter(found)).pose.round(4)
     array([-15.4714,   9.6849, 456.3315])
     """
-    given = border.checked(inputs, border.input_names(record), f"inputs of {record.name}")
-    return _answer(record, "direct", given, mode, method, crossed)
+    given = border.checked_inputs(record, inputs)
+    count = len(record.inputs)
+    solutions = _answer(record, "direct", given[..., :count], mode, method, crossed)
+    if given.shape[-1] == count:
+        return solutions
+    from assur.kinematics.answers.agreeing_solutions import AgreeingSolutions  # redundant inputs are rare
+
+    return AgreeingSolutions(solutions, given)
 
 
 def inverse(

@@ -20,6 +20,7 @@ from assur.kinematics.turns import (
     counted,
     counts_turns,
     near_turns_of_home,
+    periodic,
     periodic_inputs,
     with_turns_of_home,
 )
@@ -183,8 +184,10 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
         columns.append((rotation @ joint.at + origin) / length)
     rotation, origin = placed[record.platform.link]
     columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
-    for driven, same in zip(record.inputs, periodic_inputs(record), strict=True):
-        value = joints[:, [driven.coordinate.index]]
-        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[driven.coordinate.index]]
+    for driven in record.drives:
+        index = driven.coordinate.index
+        value = joints[:, [index]]
+        same = periodic(record)[index]
+        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[index]]
     columns.append(joints[:, counted(record)])
     return np.concatenate(columns, axis=-1)

@@ -45,7 +45,7 @@ def linkage(record: MechanismRecord) -> Linkage:
         groups=groups,
         inputs=tuple(
             (called[name], index - slices[name].start)
-            for name, index in ((item.coordinate.joint, item.coordinate.index) for item in record.inputs)
+            for name, index in ((item.coordinate.joint, item.coordinate.index) for item in record.drives)
         ),
         length=characteristic_length(record),
     )

@@ -77,6 +77,11 @@ def periodic_inputs(record: MechanismRecord) -> BoolArray:
     return np.asarray(periodic(record)[list(record.input_indices)])
 
 
+def periodic_drives(record: MechanismRecord) -> BoolArray:
+    """The same (d,) for every input, redundant ones last."""
+    return np.asarray(periodic(record)[[item.coordinate.index for item in record.drives]])
+
+
 def unwrapped(record: MechanismRecord, change: FloatArray) -> FloatArray:
     """Changes (..., n) of joint values, angles that are the same after a whole turn the short way.
 

@@ -204,6 +204,8 @@ class MechanismRecord:
     Attributes:
         unit: the length unit of every length of the file ("mm", "m", ...).
         angle: "deg" or "rad", the angle unit at the border; inside, angles are in rad.
+        inputs: those that determine the mechanism, the first ones of the file, as many as its pose has rates.
+        redundant_inputs: the file's further ones, which follow.
         coordinates: every component of every joint, in the order of the vector of joint values.
         angles: the source's letters for joint values.
         home: (n,) joint values near one assembled configuration, as the file gives them.
@@ -245,6 +247,7 @@ class MechanismRecord:
     description: Description | None = None
     overrides: Mapping[str, float] = field(default_factory=dict)
     thickness: float | None = None
+    redundant_inputs: tuple[Input, ...] = ()
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.title}>"
@@ -263,6 +266,16 @@ class MechanismRecord:
     def values(self) -> SimpleNamespace:
         """Parameters by name, as kernels take them: angles in rad."""
         return SimpleNamespace(**{name: parameter.inside for name, parameter in self.parameters.items()})
+
+    @property
+    def drives(self) -> tuple[Input, ...]:
+        """Every input of the file: those that determine the mechanism, then those that follow."""
+        return (*self.inputs, *self.redundant_inputs)
+
+    @property
+    def determined(self) -> MechanismRecord:
+        """The same without redundant inputs."""
+        return replace(self, redundant_inputs=())
 
     @property
     def input_indices(self) -> tuple[int, ...]:

@@ -167,6 +167,12 @@ def _disagreements(record: MechanismRecord, form: ClosedForm, path: Path) -> tup
 
 def _closed_form(record: MechanismRecord, path: Path, text: str) -> ClosedForm | None:
     """CLOSED_FORM of the Python file beside a mechanism file, None where it was not run."""
+    if record.redundant_inputs:
+        names = ", ".join(item.name for item in record.redundant_inputs)
+        raise UsageError(
+            f"{path}: a closed form has as many inputs as the mechanism has freedoms; {names} are redundant",
+            hint="leave them out of [inputs], or put the closed form elsewhere",
+        )
     form = read_closed_form(path, record.name, text)
     problems = _disagreements(record, form, path) if form else ()
     if problems:

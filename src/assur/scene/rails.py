@@ -31,6 +31,6 @@ def _half(skeleton: Skeleton, companion: Companion, marks: list[JointMark]) -> f
     """Half the length of a drawn rail: the companion's, else what the sliders and their strokes need."""
     if companion.rail:
         return formula_value(skeleton.record, companion.rail)
-    strokes = [max(map(abs, actuated.stroke)) for actuated in skeleton.record.inputs if actuated.stroke]
+    strokes = [max(map(abs, actuated.stroke)) for actuated in skeleton.record.drives if actuated.stroke]
     reach = [float(np.linalg.norm(mark.at - mark.rail)) for mark in marks]
     return 1.2 * max([*strokes, *reach, LEAST * skeleton.size])

@@ -204,7 +204,7 @@ def _on_parent(placed: Mapping[str, Frame], joint: Joint) -> FloatArray:
 
 
 def _marks(record: MechanismRecord, placed: Mapping[str, Frame]) -> list[JointMark]:
-    driven = {actuated.coordinate.joint for actuated in record.inputs}
+    driven = {actuated.coordinate.joint for actuated in record.drives}
     marks = []
     for name, joint in record.joints.items():
         axes = np.array([placed[joint.parent][0] @ axis for axis in joint.axes]).reshape(-1, 3)

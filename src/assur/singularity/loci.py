@@ -110,8 +110,11 @@ def rim_area(vertices: FloatArray, faces: Faces) -> float:
 def parallel_factors(record: MechanismRecord) -> tuple[Factor, ...]:
     """The parallel factors of the closed form; without one the determinant of Jp on the joint graph.
 
-    There is no determinant where a mechanism has more or fewer inputs than rates of its pose.
+    There is no determinant where a mechanism has more or fewer inputs than rates of its pose; redundant ones leave
+    no more than curves singular in a space that they would else cut.
     """
+    if record.redundant_inputs:
+        return ()
     if record.closed_form is not None:
         return tuple(item for item in record.closed_form.factor_list if item.kind == "parallel")
     square = len(record.inputs) == len(rate_names(record.platform.pose))

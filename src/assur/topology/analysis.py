@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Literal
 
 import numpy as np
@@ -17,13 +17,14 @@ from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
-from assur.topology.counting.coupling import coupling
+from assur.topology.counting.coupling import Decomposition, coupling
 from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import Mobility, mobility, motions
+from assur.topology.counting.redundant_drives import DeterminingDrives, determining_drives, driven_by
 from assur.topology.counting.relaxation import relaxation
-from assur.topology.counting.solution_plan import solution_plan
+from assur.topology.counting.solution_plan import SolutionPlan, solution_plan
 from assur.topology.facts import InputsBy, Known, LimbFacts, Topology
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.poc import PocSet
@@ -46,6 +47,8 @@ ADMISSIBLE: InputsBy = "admissible set"
 
 COUNT = 4
 """Configurations, at least, at which ranks are taken."""
+
+SEVERAL = "the inputs are redundant, so that no output is a function of them all"
 
 SPECIAL = "home is special: it has instantaneous freedoms that are lost on the way, and operation modes may meet there"
 
@@ -131,7 +134,8 @@ def analyse(
 
     Errors:
         RoutesDisagreeError: rules and twists differ, with the chain's name.
-        UsageError: links that nothing connects, more inputs than freedoms, a platform that turns in translation mode.
+        UsageError: links that nothing connects, inputs of what does not move, a platform that turns in translation
+            mode.
     """
     chains = recognised(linkage) if chains is None else tuple(chains)
     home = sample(linkage, mode)
@@ -143,7 +147,7 @@ def analyse(
         if inputs is not None:
             driven = analyse(dataclasses.replace(linkage, inputs=inputs), chains, mode=mode, inputs_by=ADMISSIBLE)
             return dataclasses.replace(driven, notes=(driven_words(linkage, inputs), *driven.notes))
-    refuse_too_many(linkage, collapsed)
+    refuse_rigid(linkage, collapsed)
     if mode == "translation" and len(chains or ()) != 1 and home.poc[1]:
         raise UsageError(
             "there is no translation mode: where the platform keeps its orientation, it can turn as well",
@@ -154,12 +158,15 @@ def analyse(
     rules = by_rules(chains, still=still, held=held, at=at)
     limbs = known_limbs(home, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
-    order = coupling(home.collapsed, motions(home.collapsed, base, platform).internal)
+    internal = motions(home.collapsed, base, platform).internal
+    order = coupling(home.collapsed, internal)
+    asked = cache(partial(actuation, home.collapsed, base, platform))
+    determining = determining_drives(home.collapsed, asked(), internal) if order.remainder < 0 else ()
     if not home.is_branch_point:  # the rules may speak of another mode
         check_xi(chains or (), [limb.motion for limb in limbs], order.loops, held=held)
     decoupling = _decoupling(by_jacobian(home.collapsed, base, platform), chains, rules.platform, still=still)
-    plan = solution_plan(order, home.collapsed, base, platform)
-    solvable = not plan.free
+    plan = _plan(order, determining, home, internal)
+    solvable = not (plan.free or determining)
     modes = tuple(_mode_facts(linkage, values) for values in home.modes)
     return Topology(
         mode=mode,
@@ -177,15 +184,28 @@ def analyse(
         inputs=input_names(home),
         inputs_by=inputs_by,
         decoupling=decoupling.decoupling,
-        decoupling_refusal=decoupling.refusal,
+        decoupling_refusal=SEVERAL if determining else decoupling.refusal,
         plan=plan,
+        determining=determining,
         linkage=linkage,
         modes=modes,
         notes=(_met_at_home(modes),) if home.special or home.is_branch_point else (),
         derive=rules.derivations,
-        actuate=partial(actuation, home.collapsed, base, platform),
+        actuate=asked,
         relax=partial(relaxation, home.joints, base, platform),
     )
+
+
+def _plan(
+    order: Decomposition, determining: Sequence[DeterminingDrives], home: Sample, internal: FloatArray
+) -> SolutionPlan:
+    """How the direct problem is solved; with redundant drives by the first ones that determine it."""
+    base, platform = home.linkage.base, home.linkage.platform
+    if not determining:
+        return solution_plan(order, home.collapsed, base, platform)
+    drives = determining[0].drives
+    first = driven_by(home.collapsed, drives)
+    return dataclasses.replace(solution_plan(coupling(first, internal), first, base, platform), drives=drives)
 
 
 def _platform_known(rules: Motion | Refusal, home: Sample) -> Known:
@@ -295,16 +315,12 @@ def driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
     )
 
 
-def refuse_too_many(linkage: Linkage, mobility: Mobility) -> None:
-    """UsageError where there are more inputs than freedoms to lock."""
-    allowed = max(mobility.controlled, 0)
-    if len(linkage.inputs) > allowed:
+def refuse_rigid(linkage: Linkage, mobility: Mobility) -> None:
+    """UsageError where something is actuated and nothing can move."""
+    if linkage.inputs and mobility.controlled <= 0:
         names = ", ".join(joint for joint, _ in linkage.inputs)
         internal = f" beside {plural(mobility.internal_freedoms, 'internal one')}" if mobility.internal_freedoms else ""
         raise UsageError(
-            f"{plural(len(linkage.inputs), 'actuated joint')} ({names}) for {plural(allowed, 'degree')} of freedom"
-            f"{internal}",
-            hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
-            if allowed
-            else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",
+            f"{plural(len(linkage.inputs), 'actuated joint')} ({names}) for 0 degrees of freedom{internal}",
+            hint="the mechanism does not move: a limb has too few freedoms, or axes that do not go together",
         )

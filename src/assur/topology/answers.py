@@ -11,12 +11,12 @@ from assur.results.answers.topology import (
     PlanAnswer,
     PlatformPoc,
     PocDirection,
+    PreloadSpace,
     Replacement,
     RulesRefusal,
     TopologyAnswer,
     WrittenPoc,
 )
-from assur.topology.counting.actuation import Actuation
 from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
 
@@ -50,7 +50,7 @@ def answers(topology: Topology) -> TopologyAnswer:
         outputs=decoupling.outputs if decoupling else (),
         decoupling=decoupling.depends if decoupling else None,
         decoupling_refusal=topology.decoupling_refusal,
-        actuation=_actuation(topology.actuation),
+        actuation=_actuation(topology),
         relaxation=topology.relaxation,
         plan=PlanAnswer(topology.plan.search, topology.plan.words, topology.plan.parts),
         routes_agree=topology.routes_agree,
@@ -111,6 +111,19 @@ def _limb(limb: LimbFacts) -> LimbAnswer:
     return LimbAnswer(*numbers, limb.text, limb.symbolic, limb.freedoms, str(poc), **_known(limb.known))
 
 
-def _actuation(asked: Actuation) -> ActuationAnswer:
-    sets = (asked.in_some, asked.in_every, asked.sets)
-    return ActuationAnswer(asked.verdict, asked.needed, asked.hint, *sets, asked.complete)
+def _actuation(topology: Topology) -> ActuationAnswer:
+    asked = topology.actuation
+    degrees = tuple(part.coupling_degree for part in topology.determining) or (topology.coupling_degree,)
+    return ActuationAnswer(
+        verdict=asked.verdict,
+        needed=asked.needed,
+        hint=asked.hint,
+        redundancy=asked.redundancy,
+        admissible=asked.determining,
+        coupling_degrees=degrees[: len(asked.determining)],
+        preload=PreloadSpace(asked.redundancy, asked.superfluous),
+        drivable=asked.in_some,
+        indispensable=asked.in_every,
+        sets=asked.sets,
+        complete=asked.complete,
+    )

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from assur.results.answers.topology import AssurChain, Loop, OperationModeFacts, RedundantConstraints, Relaxation
     from assur.topology.counting.actuation import Actuation
     from assur.topology.counting.decoupling import Decoupling
+    from assur.topology.counting.redundant_drives import DeterminingDrives
     from assur.topology.screws.linkage import Linkage
     from assur.topology.symbolic.derivation import PocDerivation
 
@@ -70,6 +71,7 @@ class Topology:
         inputs_by: who chose the inputs.
         decoupling: None where the inputs do not determine the platform, or where the two routes differ on it.
         decoupling_refusal: why the theory does not confirm that pattern, or what each route says; empty where it does.
+        determining: with redundant inputs the sets of them that determine the mechanism; else none.
         linkage: what the twists were computed on.
         modes: the operation modes that meet at home, where there are several; all facts are those of the first.
     """
@@ -95,6 +97,7 @@ class Topology:
     source: str = ""
     inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
+    determining: tuple[DeterminingDrives, ...] = ()
     modes: tuple[OperationModeFacts, ...] = ()
     notes: tuple[str, ...] = ()
     derive: Callable[[], tuple[PocDerivation, ...]] = field(repr=False, default=tuple)
@@ -119,6 +122,8 @@ class Topology:
     @property
     def coupling_refusal(self) -> str:
         """Why there is no coupling degree; empty where there is one."""
+        if self.determining:
+            return f"the {len(self.inputs)} inputs are redundant, and each determining set of them has its own"
         return self.plan.refusal
 
     @property

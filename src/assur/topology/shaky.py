@@ -25,7 +25,7 @@ from assur.topology.analysis import (
     limb_facts,
     of_loops,
     of_parallelograms,
-    refuse_too_many,
+    refuse_rigid,
 )
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
@@ -60,7 +60,7 @@ def analyse_shaky(
         inputs_by: as for `analyse`; where nobody gave inputs, an admissible set of the finite motion is taken.
 
     Errors:
-        UsageError: more inputs than the finite motion has freedoms.
+        UsageError: inputs of what does not move.
 
     >>> from assur.topology.screws.placing import place
     >>> from assur.topology.notation import parse_chains
@@ -84,7 +84,7 @@ def analyse_shaky(
         joints, collapsed = (edges(linkage, motion.values, part) for part in (False, True))
     home = Sample(linkage, motion.values, joints, collapsed, np.zeros((1, 6, 0)), motion.poc, special=True)
     moving = mobility(collapsed, base, platform, finite)
-    refuse_too_many(linkage, moving)
+    refuse_rigid(linkage, moving)
     order = coupling(collapsed, motions(collapsed, base, platform, finite=finite).internal)
     inside = of_parallelograms(home)
     redundant = sum(loop.redundant_constraints for loop in order.loops)

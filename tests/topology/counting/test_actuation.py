@@ -33,7 +33,8 @@ def judged(inputs, seed=0):
 
 def test_the_inputs_of_the_paper_are_valid():
     found = judged(("A1", "B1", "D1"))
-    assert (found.verdict, found.needed, found.left, found.dependent, found.hint) == ("valid", 3, 0, 0, "")
+    assert (found.verdict, found.needed, found.left, found.redundancy, found.hint) == ("valid", 3, 0, 0, "")
+    assert found.determining == (("A1", "B1", "D1"),)
     assert ("A1", "B1", "D1") in found.sets
     assert str(found) == f"valid: 3 inputs for 3 freedoms; {len(found.sets)} admissible sets"
 
@@ -58,25 +59,27 @@ def test_the_admissible_sets_of_the_paper_are_those_that_lock_it():
 
 def test_too_few_inputs():
     found = judged(("A1", "B1"))
-    assert (found.verdict, found.left, found.dependent) == ("too few", 1, 0)
+    assert (found.verdict, found.left, found.redundancy, found.determining) == ("too few", 1, 0, ())
     assert "D1" in found.helpful
     assert "A1" not in found.helpful
     assert found.hint.startswith("lock also 1 of ")
 
 
-def test_too_many_inputs():
-    found = judged(("A1", "B1", "C1", "D1"))
-    assert (found.verdict, found.left, found.dependent) == ("too many", 0, 1)
-    assert found.hint.startswith("leave out 1 of ")
+def test_redundant_inputs_and_the_sets_of_them_that_determine_the_mechanism():
+    inputs = ("A1", "B1", "C1", "D1")
+    found = judged(inputs)
+    assert (found.verdict, found.left, found.redundancy, found.hint) == ("redundant", 0, 1, "")
     for name in found.superfluous:
-        rest = tuple(item for item in ("A1", "B1", "C1", "D1") if item != name)
+        rest = tuple(item for item in inputs if item != name)
         assert judged(rest).verdict == "valid"
+    valid = {rest for rest in combinations(inputs, 3) if judged(rest).verdict == "valid"}
+    assert set(found.determining) == valid
 
 
 def test_dependent_inputs():
     """C1 and C2 turn against each other: locking one locks the other."""
     found = judged(("A1", "C1", "C2"))
-    assert (found.verdict, found.left, found.dependent, found.superfluous) == ("dependent", 1, 1, ("C1", "C2"))
+    assert (found.verdict, found.left, found.redundancy, found.superfluous) == ("dependent", 1, 1, ("C1", "C2"))
     assert found.hint.startswith("leave out 1 of C1, C2 and lock also 1 of ")
     assert not {"C1", "C2"} & set(found.helpful)
     assert not any({"C1", "C2"} <= set(item) for item in found.sets)

@@ -55,7 +55,7 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
     bought: dict[str, list[str]] = {}
     for joint in record.joints.values():
         own = [item for body in made for item in (*body.fused, *body.pins) if item.joint == joint.name]
-        driven = next((item for item in record.inputs if item.coordinate.joint == joint.name), None)
+        driven = next((item for item in record.drives if item.coordinate.joint == joint.name), None)
         for text in _to_buy(record, joint, own, driven, millimetre):
             bought.setdefault(text, []).append(joint.name)
     rows += [BillRow("buy", text, len(names), tuple(names)) for text, names in bought.items()]

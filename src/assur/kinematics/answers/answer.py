@@ -53,7 +53,7 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     listed, home = list(solutions), home_solution(solutions)
     shared: dict[str, Any] = {
         **mechanism_header(record),
-        "input_names": border.input_names(record),
+        "input_names": border.drive_names(record),
         "architecture": _architecture(record),
         "status": Status(int(solutions.overall_status)).name,
         "complete": solutions.complete,
@@ -79,8 +79,20 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     }
     marked = [(item, _said(record, item, mark)) for item, mark in zip(listed, home.marks, strict=True)]
     if solutions.problem == "direct":
+        count = len(record.inputs)
         poses = (
-            PoseSolution(**said, pose=pose_at_border(record, item.pose).tolist(), working_mode=item.working_mode)
+            PoseSolution(
+                **said,
+                pose=pose_at_border(record, item.pose).tolist(),
+                working_mode=item.working_mode,
+                following=dict(
+                    zip(
+                        border.drive_names(record)[count:],
+                        inputs_at_border(record, item.inputs).tolist()[count:],
+                        strict=True,
+                    )
+                ),
+            )
             for item, said in marked
         )
         return DirectAnswer(**shared, inputs=inputs_at_border(record, solutions.given).tolist(), solutions=tuple(poses))
@@ -98,12 +110,12 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
 
 def _ways(record: MechanismRecord, limb: LimbSolutions) -> LimbWays:
     """The inputs of each way, printed."""
-    values = np.full((len(limb.values), len(record.inputs)), np.nan)
-    own = [k for k, driven in enumerate(record.inputs) if driven.coordinate.index in limb.indices]
+    values = np.full((len(limb.values), len(record.drives)), np.nan)
+    own = [k for k, driven in enumerate(record.drives) if driven.coordinate.index in limb.indices]
     for k in own:
-        driven = record.inputs[k]
+        driven = record.drives[k]
         values[:, k] = driven.printed(limb.values[:, limb.indices.index(driven.coordinate.index)])
-    names, printed = border.input_names(record), inputs_at_border(record, values)
+    names, printed = border.drive_names(record), inputs_at_border(record, values)
     return LimbWays(limb.limb.joints, tuple({names[k]: float(row[k]) for k in own} for row in printed))
 
 

@@ -58,15 +58,20 @@ def quantity_text(record: MechanismRecord, value: float, kind: str, digits: int 
 
 
 def inputs_at_border(record: MechanismRecord, inputs: Any) -> FloatArray:
-    """Inputs (..., n) with angles in the mechanism's angle unit."""
-    angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    """Inputs (..., n), or every one (..., d), with angles in the mechanism's angle unit."""
+    angular = _angular(record, np.shape(inputs)[-1])
     return np.asarray(np.where(angular, angle_at_border(record, np.asarray(inputs)), inputs))
 
 
 def inputs_from_border(record: MechanismRecord, inputs: Any) -> FloatArray:
-    """Inputs (..., n) in rad and lengths, from the mechanism's angle unit."""
-    angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    """Inputs (..., n), or every one (..., d), in rad and lengths, from the mechanism's angle unit."""
+    angular = _angular(record, np.shape(inputs)[-1])
     return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, record.angle_unit, 1.0))
+
+
+def _angular(record: MechanismRecord, count: int) -> NDArray[np.bool_]:
+    """Which of the first inputs are angles."""
+    return np.array([item.coordinate.kind == "angle" for item in record.drives[:count]])
 
 
 def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:

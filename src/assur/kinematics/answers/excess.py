@@ -99,8 +99,9 @@ def _value(
 ) -> FloatArray:
     """What a limit bounds (N,), whole turns added where they do not count."""
     turns_meant = limit.what == "stroke" and limit.angular and limit.high - limit.low > TURN
-    if problem == "direct" and turns_meant:
-        return np.asarray(given[..., record.input_indices.index(limit.index)])
+    places = [item.coordinate.index for item in record.drives[: given.shape[-1]]]
+    if problem == "direct" and turns_meant and limit.index in places:
+        return np.asarray(given[..., places.index(limit.index)])
     value = limit.value(joints)
     return value + turns_to(record, limit, value)
 

@@ -34,7 +34,7 @@ class Solution:
     """One solution of the direct or the inverse problem.
 
     Attributes:
-        pose, inputs: (m,) and (n,), lengths and rad.
+        pose, inputs: (m,) and (n,), lengths and rad; redundant inputs follow those that determine the mechanism.
         mode: the signs that name it among the solutions of its problem; `working_mode` and
             `assembly_mode` give both names of the configuration.
         joints: every joint coordinate's value, in rad or length, by name.

@@ -200,7 +200,7 @@ class SolutionSet(ABC):
             exceeded = excesses(self.record, self.problem, self.given, self.joints[k])
             yield Solution(
                 pose=self.poses[k],
-                inputs=self.inputs[k],
+                inputs=self._drives(int(k)),
                 mode=mode,
                 working_mode=other if direct else mode,
                 assembly_mode=mode if direct else other,
@@ -218,6 +218,13 @@ class SolutionSet(ABC):
         """Number of listed solutions of a batch of one."""
         self._only_one()
         return int(np.sum(self.exists))
+
+    def _drives(self, k: int) -> FloatArray:
+        """Every input of a solution of a batch of one."""
+        if not self.record.redundant_inputs:
+            return np.asarray(self.inputs[k])
+        following = border.drives_of(self.record, self.joints[k])[len(self.record.inputs) :]
+        return np.concatenate([self.inputs[k], following])
 
     def _only_one(self) -> None:
         if self.batch_shape != ():

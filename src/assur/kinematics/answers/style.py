@@ -108,17 +108,17 @@ def style_of(record: MechanismRecord, *, typeset: bool = False) -> Style:
 
 
 def titles_of(record: MechanismRecord, style: Style, *, direct: bool) -> list[str]:
-    """What stands over the numbers of solutions: coordinates of poses, or inputs."""
+    """What stands over the numbers of solutions: coordinates of poses, or inputs, those that follow last."""
     if direct:
         return [style.coordinate_title(name) for name in record.platform.pose]
-    return [style.kind_title(item.name, item.coordinate.kind) for item in record.inputs]
+    return [style.kind_title(item.name, item.coordinate.kind) for item in record.drives]
 
 
 def texts_of(record: MechanismRecord, style: Style, numbers: Sequence[float], *, direct: bool) -> list[str]:
     """The numbers of one solution: a pose's coordinates, or inputs."""
     if direct:
         return [style.coordinate(*pair) for pair in zip(record.platform.pose, numbers, strict=True)]
-    return [style.kind(item.coordinate.kind, value) for item, value in zip(record.inputs, numbers, strict=True)]
+    return [style.kind(item.coordinate.kind, value) for item, value in zip(record.drives, numbers, strict=False)]
 
 
 def given_words(record: MechanismRecord, style: Style, numbers: Sequence[float], *, direct: bool) -> str:
@@ -126,5 +126,5 @@ def given_words(record: MechanismRecord, style: Style, numbers: Sequence[float],
     if not direct:
         return style.pose(record.platform.pose, numbers)
     return style.kinds(
-        (item.name, item.coordinate.kind, value) for item, value in zip(record.inputs, numbers, strict=True)
+        (item.name, item.coordinate.kind, value) for item, value in zip(record.drives, numbers, strict=False)
     )

@@ -236,9 +236,9 @@ def _independent(every: _Assemblies, k: int) -> list[int] | None:
 
 
 def _bounds(near: _Assemblies, narrow: Interval, platform: Placed) -> Interval:
-    """What was asked for, (K, m) or (K, n): the poses, or the printed inputs."""
+    """What was asked for, (K, m) or (K, n): the poses, or every printed input."""
     if near.problem == "direct":
         return stacked([number(value) for value in pose_parts(near.record.platform.pose, platform)], len(near.near))
-    columns = [narrow[:, near.unknown.index(item.coordinate.index)] for item in near.record.inputs]
-    printed = [item.printed(value) for value, item in zip(columns, near.record.inputs, strict=True)]
+    columns = [narrow[:, near.unknown.index(item.coordinate.index)] for item in near.record.drives]
+    printed = [item.printed(value) for value, item in zip(columns, near.record.drives, strict=True)]
     return stacked(printed, len(near.near))

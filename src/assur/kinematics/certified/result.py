@@ -15,7 +15,7 @@ from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border,
 from assur.kinematics.answers.excess import limits_at_border
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
-from assur.kinematics.turns import periodic_inputs
+from assur.kinematics.turns import periodic_drives
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION, is_angle
 from assur.numerics import rotations
@@ -181,7 +181,7 @@ def answer(solutions: CertifiedSolutions) -> CertifiedDirect | CertifiedInverse:
         "unit": record.unit,
         "angle": record.angle,
         "coordinates": record.platform.pose,
-        "input_names": border.input_names(record),
+        "input_names": border.drive_names(record),
         "proved": solutions.proved,
         "complete": solutions.complete,
         "complete_for": solutions.complete_for,
@@ -210,8 +210,8 @@ def _limits(solutions: CertifiedSolutions) -> list[KeptLimits]:
     floats = list((position.direct if direct else position.inverse)(record, solutions.given))
     rows = np.array([one.pose if direct else one.inputs for one in floats])
     names = record.platform.pose
-    same = np.array([is_angle(name) for name in names]) if direct else periodic_inputs(record)
-    lengths = [name in LENGTHS for name in names] if direct else [k.coordinate.kind == "length" for k in record.inputs]
+    same = np.array([is_angle(name) for name in names]) if direct else periodic_drives(record)
+    lengths = [name in LENGTHS for name in names] if direct else [k.coordinate.kind == "length" for k in record.drives]
     sizes = np.where(lengths, characteristic_length(record), 1.0)
     kept = []
     for item in solutions.solutions:
@@ -230,7 +230,7 @@ def _proved_pose(record: MechanismRecord, solution: ProvedSolution, limits: Kept
 
 def _proved_inputs(record: MechanismRecord, solution: ProvedSolution, limits: KeptLimits) -> ProvedInputs:
     low, high = (inputs_at_border(record, end) for end in (solution.inputs.low, solution.inputs.high))
-    angular = [one.coordinate.kind == "angle" for one in record.inputs]
+    angular = [one.coordinate.kind == "angle" for one in record.drives]
     bounds = _outward(record, low, high, angular)
     return ProvedInputs(solution.mode, solution.how, solution.left, limits, bounds, solution.assembly_mode)
 

@@ -26,6 +26,11 @@ def coordinates(record: MechanismRecord, problem: Problem) -> dict[str, str]:
     return {name: "angle" if is_angle(name) else "length" for name in record.platform.pose}
 
 
+def drive_kinds(record: MechanismRecord) -> dict[str, str]:
+    """Every input of the file, redundant ones last: name -> "length" or "angle"."""
+    return {item.name: item.coordinate.kind for item in record.drives}
+
+
 def told(plan: Plan, counts: Counts) -> bytes:
     """`sweep.json`: what the files of a store hold that is done; of a shard one axis of places."""
     return (json_text(described(plan, counts, plan.length)) + "\n").encode()

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
-from assur.kinematics.closed_form.about import coordinates, told
+from assur.kinematics.closed_form.about import coordinates, drive_kinds, told
 from assur.kinematics.closed_form.blocks import FloatArray, in_order
 from assur.kinematics.closed_form.filling import threads_of
 from assur.kinematics.closed_form.grids import Grid
@@ -84,7 +84,7 @@ class GridSweep(ABC):
     def arrays(self) -> tuple[Array, ...]:
         """What is kept: (K,) in all modes, then its rows, then the places along each coordinate that is not held."""
         rows = {
-            "inputs": len(self.record.inputs),
+            "inputs": len(self.record.drives),
             "poses": len(self.record.platform.pose),
             "factors": len(self.record.closed_form.factor_list) if self.record.closed_form else 0,
         }
@@ -261,7 +261,7 @@ def _rows(sweep: GridSweep, name: str) -> tuple[list[str], list[str], str]:
     record = sweep.record
     units = {"length": record.unit, "angle": record.angle}
     if name in ("inputs", "poses"):
-        kinds = coordinates(record, "direct" if name == "inputs" else "inverse")
+        kinds = drive_kinds(record) if name == "inputs" else coordinates(record, "inverse")
         return list(kinds), [units[kind] for kind in kinds.values()], f"the {name}; NaN where `exists` would be false"
     if name == "factors":
         items = closed_form_of(record).factor_list

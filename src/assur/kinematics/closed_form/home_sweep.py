@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import inputs_of
+from assur.kinematics.border import drives_of
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.kinematics.closed_form.grid_sweep import GridSweep
 from assur.kinematics.following.from_home import followed_together
@@ -62,7 +62,7 @@ class HomeSweep(GridSweep):
         """What is kept of poses or inputs (m, b), angles in rad, and whether each was reached (b,)."""
         if self.problem == "inverse":
             joints, reached = followed_together(self.record, given.T)
-            found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
+            found = {"exists": reached, "inputs": drives_of(self.record, joints).T}
         else:
             joints, reached = followed_together(self.record, given.T, "inputs")
             found = {"exists": reached, "poses": np.full((len(self.record.platform.pose), len(joints)), np.nan)}

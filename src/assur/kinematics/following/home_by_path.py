@@ -40,4 +40,6 @@ def _turns_away(solutions: SolutionSet) -> float:
 def _followed(solutions: SolutionSet) -> HomeMode:
     """Home's mode at what is given, by the straight way; solutions of one mode alone prove nothing of the others."""
     prescribed: Prescribed = "inputs" if solutions.problem == "direct" else "poses"
-    return home_mode_at(solutions.record, solutions.given, prescribed, detours=0, known=solutions)
+    record, given = solutions.record, solutions.given
+    goal = given if prescribed == "poses" else given[: len(record.inputs)]  # redundant inputs follow
+    return home_mode_at(record, goal, prescribed, detours=0, known=solutions)

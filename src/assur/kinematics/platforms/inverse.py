@@ -63,7 +63,8 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
         if poses is None:
             return unsolved(record, False, f"not proved, since {OPEN}")
         frames = [frame for frame in poses.frames if _as_given(record, pose, frame, size)]
-        sets = [[closed_limb(limb, frame, size, record.input_indices) for limb in series] for frame in frames]
+        driven = [item.coordinate.index for item in record.drives]
+        sets = [[closed_limb(limb, frame, size, driven) for limb in series] for frame in frames]
     except (NotSerialError, MovingLimbError, UncertainConditionsError) as error:
         return unsolved(record, False, f"not proved, since {error}")
     if sum(prod(len(own.values) for own in limbs) for limbs in sets) > MOST:

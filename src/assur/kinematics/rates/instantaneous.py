@@ -26,8 +26,8 @@ from assur.kinematics.rates.motions import (
     InstantaneousMotion,
     IntArray,
     Ranks,
+    drive_units,
     general_share,
-    input_units,
     motions,
     pose_units,
 )
@@ -42,7 +42,8 @@ class Instant:
     """First-order motion at joint values (..., n).
 
     Attributes:
-        jp, jq: (..., r, k) and (..., r, F) with Jp v = Jq qdot, r = k where the inputs fix the mechanism. v are the
+        jp, jq: (..., r, k) and (..., r, d) with Jp v = Jq qdot, r = k = d where the inputs fix the mechanism; with
+            redundant ones r = d > k, and Jp is singular where all of them together do not fix it. v are the
             rates of the pose as `rate_names` names them, qdot those of the printed inputs; each row is a velocity.
             A row that is lacking because the closure loses rank is zero. The basis is chosen with det Jq >= 0, which
             leaves the sign of det Jp: that of det Jp det Jq, the only one that does not depend on the basis.
@@ -139,7 +140,7 @@ def instantaneous(record: MechanismRecord, joints: Named) -> Instant:
     turning = turning_matrix(record, values)
     return Instant(
         jp=np.where(unknown, np.nan, jp * length / pose_units(record) @ turning),
-        jq=np.where(unknown, np.nan, jq * length / input_units(record)),
+        jq=np.where(unknown, np.nan, jq * length / drive_units(record)),
         measures={name: np.where(closed, value, np.nan) for name, value in measures.items()},
         ranks=motion.ranks,
         general=usual,

@@ -63,7 +63,7 @@ class InstantaneousMotion:
 
     `values` are the singular values of the scaled closure Jacobian, `scale` (n,) turns
     scaled joint rates into rates; `inputs` (..., F, n), `pose` (..., k, n) and `twists` (..., 6, n) are per motion, the
-    pose's rates being those of `assur.kinematics.pose.turning_rates`.
+    pose's rates being those of `assur.kinematics.pose.turning_rates`. Redundant inputs count in all ranks.
     """
 
     values: FloatArray
@@ -86,6 +86,11 @@ def pose_units(record: MechanismRecord) -> FloatArray:
 def input_units(record: MechanismRecord) -> FloatArray:
     """What each input (F,) is divided by to be a number: the characteristic length, 1, or a screw's turns for it."""
     return joint_units(record)[list(record.input_indices)]
+
+
+def drive_units(record: MechanismRecord) -> FloatArray:
+    """The same for every input (d,), redundant ones last."""
+    return joint_units(record)[[item.coordinate.index for item in record.drives]]
 
 
 def twist_units(record: MechanismRecord) -> FloatArray:
@@ -139,18 +144,18 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     _, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
     rank, gap = rank_of(singular, threshold * singular[..., 0])
     null = np.swapaxes(right, -1, -2) * (np.arange(values.shape[-1]) >= rank[..., None])[..., None, :]
-    inputs = np.zeros((len(record.inputs), values.shape[-1]))
-    for row, driven in enumerate(record.inputs):
-        inputs[row, driven.coordinate.index] = driven.sign
-    inputs = np.broadcast_to(inputs * scale / input_units(record)[:, None], (*values.shape[:-1], *inputs.shape))
+    drives = np.zeros((len(record.drives), values.shape[-1]))
+    for row, driven in enumerate(record.drives):
+        drives[row, driven.coordinate.index] = driven.sign  # in the units of `drive_units`, which are the joints'
+    drives = np.broadcast_to(drives, (*values.shape[:-1], *drives.shape))
     pose = turning_rates(record, values) * scale / pose_units(record)[:, None]
     twists = platform_twists(record, values) * scale / twist_units(record)[:, None]
     parts = {
-        "inputs": inputs,
+        "inputs": drives,
         "pose": pose,
         "twists": twists,
-        "related": np.concatenate([pose, inputs], axis=-2),
-        "moving": np.concatenate([twists, inputs], axis=-2),
+        "related": np.concatenate([pose, drives], axis=-2),
+        "moving": np.concatenate([twists, drives], axis=-2),
     }
     ranks, gaps = {}, [gap]
     for name, part in parts.items():
@@ -161,7 +166,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         values=singular,
         scale=scale,
         null=null,
-        inputs=inputs @ null,
+        inputs=drives[..., : len(record.inputs), :] @ null,
         pose=pose @ null,
         twists=twists @ null,
         ranks=Ranks(closure=rank, freedoms=values.shape[-1] - rank, **ranks),

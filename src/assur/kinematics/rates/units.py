@@ -61,7 +61,7 @@ def scaled(record: MechanismRecord, matrices: FloatArray, length: float | None) 
     if length is None:
         return matrices
     rows = np.where(_rates_are_lengths(record), 1.0 / length, 1.0)
-    columns = np.where(_inputs_are_lengths(record), length, 1.0)
+    columns = np.where(_inputs_are_lengths(record)[: matrices.shape[-1]], length, 1.0)
     return np.asarray(rows[:, None] * matrices * columns)
 
 
@@ -70,4 +70,4 @@ def _rates_are_lengths(record: MechanismRecord) -> list[bool]:
 
 
 def _inputs_are_lengths(record: MechanismRecord) -> list[bool]:
-    return [item.coordinate.kind == "length" for item in record.inputs]
+    return [item.coordinate.kind == "length" for item in record.drives]

@@ -82,7 +82,13 @@ class VelocityMap:
 
     @cached_property
     def matrix(self) -> FloatArray:
-        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output` or `no_rates`."""
+        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output` or `no_rates`.
+
+        With redundant inputs the pseudoinverse of K = Jq^-1 Jp, with K v = qdot: v at rates that belong together.
+        """
+        if self.record.redundant_inputs:
+            unknown = self.singular_output | self.no_rates
+            return _solve(_solve(self.jq, self.jp, unknown | self.singular_input), np.eye(self.jq.shape[-1]), unknown)
         return _solve(self.jp, self.jq, self.singular_output | self.no_rates)
 
     @cached_property

@@ -38,6 +38,11 @@ class Claims:
         return int(self.general.freedoms - self.general.internal)
 
     @property
+    def independent_inputs(self) -> int:
+        """How many of the inputs that are to determine the mechanism are independent."""
+        return _rank(self.motion.inputs[self.at])
+
+    @property
     def spare_inputs(self) -> list[str]:
         """Inputs that can be left out without loss."""
         return _spare([item.name for item in self.record.inputs], self.motion.inputs[self.at])

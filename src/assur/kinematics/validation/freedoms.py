@@ -18,9 +18,11 @@ SHOWN = 6
 
 def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
     """Freedoms against inputs, by the rank of the whole joint graph near home."""
-    driven, moving = len(record.inputs), claims.moving
-    if driven == moving == int(claims.general.inputs) > 0:
-        return []
+    driven, moving = len(record.drives), claims.moving
+    if len(record.inputs) == moving == claims.independent_inputs > 0:
+        return []  # those that follow are redundant
+    if record.redundant_inputs and len(record.inputs) < moving:
+        return []  # the pose says too little, which is told of it: the first inputs are as many as its rates
     names = ", ".join(item.name for item in record.inputs)
     path: KeyPath = table_place(record, "inputs")
     if moving == 0:
@@ -29,8 +31,9 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
         hint = axes_hint(record, home_values(record), tuple(record.joints)) or "are axes parallel that should be?"
         return [problem(record, table_place(record, "joints"), found, "at least one freedom", hint)]
     inputs, freedoms = count(driven, "input"), f"the mechanism has {count(moving, 'freedom')}"
-    if driven > moving:
-        hint = f"it is over-actuated: leave out {_one_of(claims.spare_inputs)}"
+    if len(record.inputs) > moving:
+        hint = f"leave out {_one_of(claims.spare_inputs)}, or a coordinate of the pose: with as many as there are"
+        hint += " freedoms the first inputs determine the mechanism, and further ones follow"
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
     free = claims.free_joints[:SHOWN]
     drive = f"with the inputs locked these still move: {', '.join(free)}" if free else "fix a joint"
@@ -39,8 +42,12 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
     if self_motion_dimension(record):
         return []
-    found = f"inputs ({names}) that depend on one another: {int(claims.general.inputs)} of {driven} are independent"
+    found = f"inputs ({names}) that depend on one another: {claims.independent_inputs} of {driven} are independent"
     hint = f"{drive}; drive one of them instead of {_one_of(claims.spare_inputs)}"
+    if record.redundant_inputs:
+        others = ", ".join(item.name for item in record.redundant_inputs)
+        hint = f"the first {len(record.inputs)} must determine the mechanism, others follow: write {others} before"
+        hint += f" {_one_of(claims.spare_inputs)}"
     return [problem(record, path, found, "inputs that determine the mechanism", hint)]
 
 

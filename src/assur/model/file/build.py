@@ -21,7 +21,7 @@ from assur.model.file.numbers import Numbers
 from assur.model.file.parameters import evaluate_parameters
 from assur.model.file.scope import Scope
 from assur.model.mechanism import Link, MechanismRecord, Platform
-from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle, rate_names
 
 _REQUIRED = {
     "format": "1, the format that this version reads",
@@ -68,6 +68,9 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
     parameters, numbers = evaluate_parameters(file.parameters, overrides, (unit, angle), broken, faults)
     geometry = JointVectors(file, numbers)
     joints = {name: build_joint(placed, scope, geometry) for name, placed in tables.joints.items()}
+    platform = _platform(file, scope, geometry)
+    drives = build_inputs(file, tables, scope, numbers)
+    determining = len(rate_names(platform.pose)) or len(drives)
     record = MechanismRecord(
         name=file.name or "",
         title=file.title or file.name or "",
@@ -78,8 +81,9 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
         links={name: Link(name, placed.entry.meaning) for name, placed in tables.links.items()},
         joints={name: joint for name, joint in joints.items() if joint},
         base="" if file.base is None else scope.link(file.base, ("base",)) or "",
-        platform=_platform(file, scope, geometry),
-        inputs=build_inputs(file, tables, scope, numbers),
+        platform=platform,
+        inputs=drives[:determining],
+        redundant_inputs=drives[determining:],
         coordinates=tuple(scope.coordinates),
         home=build_home(tables, scope, geometry),
         modes=build_modes(file, scope, numbers),

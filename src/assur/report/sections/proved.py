@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem
-from assur.kinematics.turns import periodic_inputs
+from assur.kinematics.turns import periodic_drives
 from assur.model.pose import QUATERNION, is_angle
 from assur.numerics import rotations
 from assur.report.findings import Findings
@@ -74,7 +74,7 @@ def _apart(findings: Findings, problem: Problem, values: FloatArray, proved: Pro
     record = findings.record
     bounds = proved.pose if problem == "direct" else proved.inputs
     names = record.platform.pose if problem == "direct" else ()
-    angles = np.array([is_angle(name) for name in names]) if names else periodic_inputs(record)
+    angles = np.array([is_angle(name) for name in names]) if names else periodic_drives(record)
     middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width
     turned = np.array([-1.0 if name in QUATERNION else 1.0 for name in names]) if names else np.ones(len(values))
     away = []

@@ -145,7 +145,8 @@ def _examples(findings: Findings) -> Table:
         ]
         rank = f"{int(free.rank)} of {usual}"
         rows.append((written(example.factor), example.status.name.replace("_", " "), example.mode, *values, rank))
-    titles = (*titles_of(record, style, direct=True), *titles_of(record, style, direct=False))
+    inputs = titles_of(record, style, direct=False)[: len(record.inputs)]
+    titles = (*titles_of(record, style, direct=True), *inputs)
     columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
     how = (
         "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors say"

@@ -79,14 +79,17 @@ def _here(findings: Findings, record: MechanismRecord) -> Section:
     mode = f", working mode {solution.working_mode}" if solution.working_mode else ""
     said = f"In the configuration of this report, {pose}{mode}:"
     rates = tuple(RATE.get(name, f"d{name}/dt") for name in rate_names(record.platform.pose))
-    inputs = tuple(f"d{actuated.name}/dt" for actuated in record.inputs)
+    inputs = tuple(f"d{actuated.name}/dt" for actuated in record.drives)
     matrices = [Matrix("Jp", velocity.jp, (), rates), Matrix("Jq", velocity.jq, (), inputs)]
     if not velocity.singular_output:
-        matrices.append(Matrix("J = Jp⁻¹ Jq", velocity.matrix, rates, inputs))
+        matrices.append(Matrix(f"J = {_written(record)}", velocity.matrix, rates, inputs))
     condition = float(velocity.condition)
-    scalars = [
+    determinants = [
         Scalar("det Jp", float(velocity.det_jp), "", FLOATING, note=_product(findings, "parallel")),
         Scalar("det Jq", float(velocity.det_jq), "", FLOATING, note=_product(findings, "serial")),
+    ]
+    scalars = [
+        *(() if record.redundant_inputs else determinants),  # then Jp is no square
         Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(velocity)),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
@@ -98,7 +101,12 @@ def _norm(velocity: VelocityMap) -> str:
         if velocity.length
         else ""
     )
-    return f"κ(J) = s₁/sᵣ of J = Jp⁻¹ Jq in the 2-norm{divided}"
+    return f"κ(J) = s₁/sᵣ of J = {_written(velocity.record)} in the 2-norm{divided}"
+
+
+def _written(record: MechanismRecord) -> str:
+    """J in letters; with redundant inputs a pseudoinverse."""
+    return "(Jq⁻¹ Jp)⁺" if record.redundant_inputs else "Jp⁻¹ Jq"
 
 
 def _product(findings: Findings, kind: str) -> str:

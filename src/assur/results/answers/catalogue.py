@@ -95,11 +95,12 @@ class ShownJoint:
 
 @dataclass(frozen=True)
 class ShownInput:
-    """An input and its joint."""
+    """An input and its joint; whether it is redundant, and follows those that determine the mechanism."""
 
     name: str
     joint: str
     kind: str
+    redundant: bool
 
 
 @dataclass(frozen=True)

@@ -24,14 +24,15 @@ class ExactAnswer:
 class SoundFacts:
     """What a sound file describes.
 
-    `architecture` says so where the mechanism is architecturally singular; `unproved` are margins of a closed form that
-    were held at places only.
+    `redundant_inputs` follow those that determine it; `architecture` says so where the mechanism is architecturally
+    singular; `unproved` are margins of a closed form that were held at places only.
     """
 
     links: int
     joints: int
     freedoms: int
     internal_freedoms: int
+    redundant_inputs: tuple[str, ...]
     architecture: str
     closed_form: bool
     closed_form_checked: bool

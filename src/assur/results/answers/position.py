@@ -61,10 +61,11 @@ class ListedSolution:
 
 @dataclass(frozen=True)
 class PoseSolution(ListedSolution):
-    """A pose at given inputs."""
+    """A pose at given inputs; `following` are the values of redundant inputs there."""
 
     pose: Numbers
     working_mode: str
+    following: Mapping[str, float]
 
     @property
     def numbers(self) -> Numbers:

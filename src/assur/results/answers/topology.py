@@ -96,13 +96,30 @@ class Loop:
 
 
 @dataclass(frozen=True)
+class PreloadSpace:
+    """Input forces that hold each other with the platform free: dimension of the space, inputs that act in it."""
+
+    dimension: int
+    inputs: Names
+
+
+@dataclass(frozen=True)
 class ActuationAnswer:
-    """Which joints may be actuated: in some admissible set, in every, and the sets themselves."""
+    """Whether the inputs determine the mechanism, and which joints may be actuated instead.
+
+    `redundancy`: inputs less their rank; `admissible`: the sets of inputs that determine the mechanism, each with its
+    `coupling_degrees`; `preload`: how many ways they can be preloaded against each other, and which of them act in it.
+    `drivable`, `indispensable`: joints in some admissible set of all joints, in every; and these `sets` themselves.
+    """
 
     verdict: str
     needed: int
     hint: str
-    admissible: Names
+    redundancy: int
+    admissible: tuple[Names, ...]
+    coupling_degrees: tuple[int | None, ...]
+    preload: PreloadSpace
+    drivable: Names
     indispensable: Names
     sets: tuple[Names, ...]
     complete: bool

@@ -101,9 +101,10 @@ class DraftQuestion:
             values = away(record, still=still) if moved else home_values(record)
             if values is None:
                 return Attempt("", None, "the platform cannot be moved away from home")
-            pose = pose_for(motions(record, values, RANK_GAP).twists, len(self.inputs), still=still)
+            freedoms = self.topology.actuation.needed
+            pose = pose_for(motions(record, values, RANK_GAP).twists, freedoms, still=still)
             if pose is None:
-                return Attempt("", None, f"no {len(self.inputs)} coordinates say where the platform is")
+                return Attempt("", None, f"no {freedoms} coordinates say where the platform is")
             chosen = dataclasses.replace(
                 first,
                 pose=pose,

@@ -14,7 +14,8 @@ from assur.topology.screws.placing import place
 
 
 def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> tuple[tuple[str, ...], Topology]:
-    """Names of actuated joints, as many as there are freedoms, that determine a mechanism; its topology with these.
+    """Names of actuated joints that determine a mechanism, as many as there are freedoms unless more are named; its
+    topology with these.
 
     By default the first P, R, H or C of each branch from the base; where these do not determine it, an admissible set
     near the base, of what a draft can drive.
@@ -45,7 +46,7 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
             hint="leave joints out of a limb, or add a limb",
         )
     driven = _first_components(topology.inputs)
-    if asked.verdict == "valid" and driven is not None:
+    if driven is not None and (asked.verdict == "valid" or (actuate and asked.verdict == "redundant")):
         return (names if actuate else driven), topology
     if actuate:
         raise UsageError(f"the actuated joints do not determine the mechanism: {asked.verdict}", hint=asked.hint)

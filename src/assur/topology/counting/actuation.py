@@ -1,8 +1,9 @@
 """Actuation: whether the chosen inputs determine the mechanism, and which other choices would.
 
-Inputs determine it where locking them leaves no freedom but internal ones, and where none of them hinders another.
-The choices that do are the bases of a matroid: sets of rows, one for each joint component, of a basis of the
-mechanism's motions.
+Inputs determine it where locking them leaves no freedom but internal ones. Where they are more than it takes, they are
+redundant: some of them determine it, the others follow, and all can be preloaded against each other. The choices that
+determine it and are no more than it takes are the bases of a matroid: sets of rows, one for each joint component, of a
+basis of the mechanism's motions.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from assur.topology.screws.edges import Edge, column_names, input_columns, rank
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
-Verdict = Literal["valid", "too few", "too many", "dependent"]
+Verdict = Literal["valid", "redundant", "too few", "dependent"]
 
 SETS = 20_000
 """Sets of inputs that are tried."""
@@ -39,8 +40,11 @@ class Actuation:
         inputs: names of the chosen components.
         needed: F less internal freedoms, how many inputs it takes.
         left: freedoms of the platform when the inputs are locked.
-        dependent: how many inputs less are enough to lock what these lock.
-        superfluous: inputs without which the others lock as much.
+        redundancy: inputs less their rank: how many fewer are enough to lock what these lock, and the dimension of the
+            forces with which the inputs can be preloaded against each other, the platform at rest.
+        determining: subsets of the inputs that determine the mechanism, without redundancy, of the first ones tried;
+            none where all of them do not.
+        superfluous: inputs without which the others lock as much; those that a preload can act in.
         helpful: components that would lock a freedom that is left.
         sets: admissible sets of components, in the order of the joints.
         tried, possible: sets that were tried, of so many that there are.
@@ -50,7 +54,8 @@ class Actuation:
     inputs: tuple[str, ...]
     needed: int
     left: int
-    dependent: int
+    redundancy: int
+    determining: tuple[tuple[str, ...], ...]
     superfluous: tuple[str, ...]
     helpful: tuple[str, ...]
     sets: tuple[tuple[str, ...], ...]
@@ -61,16 +66,16 @@ class Actuation:
 
     @property
     def verdict(self) -> Verdict:
-        """Whether the chosen inputs determine the mechanism, or what is wrong with them."""
-        if len(self.inputs) != self.needed:
-            return "too few" if len(self.inputs) < self.needed else "too many"
-        return "dependent" if self.left or self.dependent else "valid"
+        """Whether the chosen inputs determine the mechanism, with as many as it takes or more, or what is wrong."""
+        if self.left:
+            return "too few" if len(self.inputs) < self.needed else "dependent"
+        return "redundant" if self.redundancy else "valid"
 
     @property
     def hint(self) -> str:
         """What to change; empty where the inputs are valid."""
         add = f"lock also {self.left} of {', '.join(self.helpful)}" if self.helpful else ""
-        drop = f"leave out {self.dependent} of {', '.join(self.superfluous)}" if self.superfluous else ""
+        drop = f"leave out {self.redundancy} of {', '.join(self.superfluous)}" if self.superfluous and self.left else ""
         return " and ".join(part for part in (drop, add) if part)
 
     @property
@@ -81,9 +86,13 @@ class Actuation:
     def __str__(self) -> str:
         count = f"{len(self.inputs)} input{'' if len(self.inputs) == 1 else 's'} for {self.needed}"
         head = f"{self.verdict}: {count} freedom{'' if self.needed == 1 else 's'}"
+        extra = ""
+        if self.verdict == "redundant":
+            each = "any" if len(self.determining) == comb(len(self.inputs), self.needed) else "some"
+            extra = f"{each} {self.needed} of them determine it, {len(self.determining)} sets"
         sets = f"{len(self.sets)} admissible set{'' if len(self.sets) == 1 else 's'}"
         tail = sets if self.complete else f"{sets} among the first {self.tried} of {self.possible}"
-        return "; ".join(part for part in (head, self.hint, tail) if part)
+        return "; ".join(part for part in (head, extra, self.hint, tail) if part)
 
 
 def locked_freedoms(edges: Sequence[Edge], inputs: Sequence[int], base: str, platform: str) -> int:
@@ -138,12 +147,14 @@ def actuation(
     rows = driven_columns(edges, space.internal)
     locked = rank(space.useful[:, chosen], scale=1.0)
     sets, possible = _admissible(space.useful[:, rows], limit)
+    determining, _ = _admissible(space.useful[:, chosen], limit) if locked == needed else ([], 0)
     some, every = _in_sets(space.useful[:, rows])
     return Actuation(
         inputs=tuple(names[column] for column in chosen),
         needed=needed,
         left=needed - locked,
-        dependent=len(chosen) - locked,
+        redundancy=len(chosen) - locked,
+        determining=tuple(tuple(names[chosen[index]] for index in subset) for subset in determining),
         superfluous=tuple(
             names[column]
             for column in chosen

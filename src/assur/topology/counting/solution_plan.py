@@ -28,12 +28,14 @@ class SolutionPlan:
     """The order in which the direct problem is solved, Assur chain by Assur chain.
 
     `free` is how many freedoms the mechanism has left, beyond internal ones, when the inputs are locked; unless it is 0
-    there is no plan. Nor is there one of a shaky mechanism, of which `shaky` says why.
+    there is no plan. Nor is there one of a shaky mechanism, of which `shaky` says why. `drives`: of redundant inputs
+    those by which it is planned; the others follow.
     """
 
     parts: tuple[AssurPlan, ...]
     free: int = 0
     shaky: str = ""
+    drives: tuple[str, ...] = ()
 
     @property
     def search(self) -> int | None:
@@ -55,9 +57,10 @@ class SolutionPlan:
             return (f"No order of loops is told: {self.shaky}.",)
         if self.free:
             return (f"These inputs determine no solution: {self.refusal}.",)
-        return tuple(
-            line for number, part in enumerate(self.parts, 1) for line in _sentences(part, number, len(self.parts))
-        )
+        parts = enumerate(self.parts, 1)
+        lines = [line for number, part in parts for line in _sentences(part, number, len(self.parts))]
+        first = f"By {', '.join(self.drives)} alone; the other inputs follow."
+        return (first, *lines) if self.drives else tuple(lines)
 
 
 def solution_plan(decomposition: Decomposition, edges: Sequence[Edge], base: str, platform: str) -> SolutionPlan:
