@@ -104,7 +104,6 @@ def test_inputs_of_a_mechanism_with_dimensions_by_number():
         ("tripteron", {"mode": "free"}, UnknownNameError, "unknown mode 'free'; there is: home, translation"),
         ("tripteron", {"actuate": ["4.1"]}, UsageError, "there is no limb 4"),
         ("zeng2019", {"actuate": ["2.9"]}, UsageError, "limb 2 has joints 1 to 3"),
-        (TRIPTERON, {"actuate": ["1.1", "2.1", "3.1", "3.2"]}, UsageError, "4 actuated joints"),
     ],
 )
 def test_what_is_refused(what, options, error, words):

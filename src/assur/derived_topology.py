@@ -57,7 +57,7 @@ def topology(
 
     Errors:
         NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
-        UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
+        UsageError: actuated joints of what does not move, links that nothing connects, an unknown mode.
         RoutesDisagreeError: the two routes give different answers; the message names the chain.
         ShakyError, ImmobileError: instantaneous freedoms that lead nowhere, where the second order does not prove it.
 

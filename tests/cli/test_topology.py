@@ -1,5 +1,6 @@
 """`assur topology`: the same facts as text, as JSON, as LaTeX and as a graph, and a clear answer to bad input."""
 
+import json
 import re
 import shlex
 
@@ -209,10 +210,17 @@ def test_a_caret_stands_under_the_place(assur_cli, chain, place, found):
         assert caret.startswith("  " + " " * place + "^ " + found)
 
 
-def test_more_actuators_than_freedoms_are_refused(assur_cli):
-    run = assur_cli("topology", *chains(*TRIPTERON), "--actuate", "1.1,2.1,3.1,1.2")
-    assert (run.code, run.out) == (2, "")
-    assert run.err.startswith("error: 4 actuated joints (P1, P2, P3, R1) for 3 degrees of freedom\nhint: ")
+def test_redundant_actuators(assur_cli):
+    given = ("topology", *chains(*TRIPTERON), "--actuate", "1.1,2.1,3.1,1.2")
+    said = json.loads(assur_cli(*given, "--json").out)
+    asked = said["actuation"]
+    assert (said["coupling_degree"], asked["verdict"], asked["redundancy"]) == (None, "redundant", 1)
+    assert asked["admissible"] == [["P1", "R1", "P2"], ["P1", "R1", "P3"], ["P1", "P2", "P3"]]
+    assert asked["coupling_degrees"] == [0, 0, 1]
+    assert asked["preload"] == {"dimension": 1, "inputs": ["R1", "P2", "P3"]}
+    text = assur_cli(*given).out
+    assert "determined by P1, P2, P3: κ = 1; R1 follows" in text
+    assert "preload: 1 dimension in R1, P2, P3" in text
 
 
 def test_an_unknown_mode_lists_the_modes(assur_cli):

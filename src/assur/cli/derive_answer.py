@@ -68,6 +68,11 @@ def outcome(
     source = None if c is None else output_file(c, (".c",))
     if (path is not None or source is not None) and problem != "both":
         raise UsageError("a closed form has both problems", hint="leave --problem out")
+    if record.redundant_inputs and (path is not None or source is not None):
+        names = ", ".join(item.name for item in record.redundant_inputs)
+        raise UsageError(
+            f"a closed form has no redundant inputs, and {names} would be", hint="leave them out of [inputs] first"
+        )
     asked: tuple[Problem, ...] = ("direct", "inverse") if problem == "both" else (problem,)  # type: ignore[assignment]
     parts = tuple(_derived(record, name) for name in asked)
     fine = all(part.status == "derived" for part in parts)

@@ -170,7 +170,7 @@ def _closed_form(record: MechanismRecord, path: Path, text: str) -> ClosedForm |
     if record.redundant_inputs:
         names = ", ".join(item.name for item in record.redundant_inputs)
         raise UsageError(
-            f"{path}: a closed form has as many inputs as the mechanism has freedoms; {names} are redundant",
+            f"{path}: a closed form has as many inputs as the mechanism has freedoms, and {names} would be redundant",
             hint="leave them out of [inputs], or put the closed form elsewhere",
         )
     form = read_closed_form(path, record.name, text)

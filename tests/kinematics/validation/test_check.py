@@ -112,10 +112,11 @@ CASES: dict[str, tuple[str, list[tuple[str, str]], list[str]]] = {
         FOUR, list(STRUT),
         ["17: joints: a structure that cannot move: 6 joint freedoms, 6 of them held by the loops; "
          "allowed: at least one freedom", "? are axes parallel that should be?"]),
-    "one input too many": (
-        FOUR, [("[inputs]\n", '[inputs]\nD = { name = "p" }\n')],
-        [f"21: inputs: 2 inputs (p, q); the mechanism has 1 freedom; {EACH}",
-         "? it is over-actuated: leave out one of p, q"]),
+    "redundant inputs before one that would determine": (
+        TWO, [("G = { name", "D = { name"), ("[home]", 'G = { name = "r" }\n[home]')],
+        ["28: inputs: inputs (p, q) that depend on one another: 1 of 2 are independent; "
+         "allowed: inputs that determine the mechanism",
+         "? the first 2 must determine the mechanism, others follow: write r before one of p, q"]),
     "one input too few": (
         RRR,
         [('[limbs.leg.inputs]\nA = { name = "q"', '[inputs]\n"leg1.A" = { name = "q1" }\n"leg2.A" = { name = "q2"')],
@@ -174,7 +175,8 @@ CASES: dict[str, tuple[str, list[tuple[str, str]], list[str]]] = {
          "? leave it out; or which axes should be parallel, which rods equally long?",
          f"19: joints.C.limits: home has C = 90 deg, outside -45 deg to 60 deg; {HOME}",
          f"21: inputs: 2 inputs (q, p); the mechanism has 1 freedom; {EACH}",
-         "? it is over-actuated: leave out one of q, p",
+         "? leave out one of q, p, or a coordinate of the pose: with as many as there are freedoms the first inputs "
+         "determine the mechanism, and further ones follow",
          f"22: inputs.A.stroke: home has q = 90 deg, outside 100 deg to 180 deg; {HOME}"]),
 }  # fmt: skip
 

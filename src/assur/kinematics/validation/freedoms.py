@@ -42,7 +42,8 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
     if self_motion_dimension(record):
         return []
-    found = f"inputs ({names}) that depend on one another: {claims.independent_inputs} of {driven} are independent"
+    independent = f"{claims.independent_inputs} of {len(record.inputs)} are independent"
+    found = f"inputs ({names}) that depend on one another: {independent}"
     hint = f"{drive}; drive one of them instead of {_one_of(claims.spare_inputs)}"
     if record.redundant_inputs:
         others = ", ".join(item.name for item in record.redundant_inputs)
