@@ -174,7 +174,7 @@ def _draft(
     said = [
         *read,
         f"drafted from {plural(len(chains), 'limb')}: {topology.poc}, {freedoms} of freedom, "
-        f"coupling degree {topology.coupling_degree}; checked: it is sound, and this is its topology",
+        f"{topology.coupling_words}; checked: it is sound, and this is its topology",
         *found.notes,
     ]
     return _outcome(path, [str(write_whole(path, found.text))], said)

@@ -127,6 +127,15 @@ class Topology:
         return self.plan.refusal
 
     @property
+    def coupling_words(self) -> str:
+        """The coupling degree in words; with redundant inputs that of each set that determines the mechanism."""
+        if self.coupling_degree is not None:
+            return f"coupling degree {self.coupling_degree}"
+        degrees = sorted({part.coupling_degree for part in self.determining if part.coupling_degree is not None})
+        listed = ", ".join(str(degree) for degree in degrees)
+        return f"coupling degree {listed} of the inputs that determine it" if degrees else "no coupling degree"
+
+    @property
     def is_shaky(self) -> bool:
         """Whether the loops close only where they are singular: F and the POC set are then those of finite motions."""
         return bool(self.plan.shaky)

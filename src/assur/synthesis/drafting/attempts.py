@@ -149,7 +149,7 @@ class DraftQuestion:
         return (
             f"{self.path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
             *limbs,
-            f"Their topology: {topology.poc}, {freedoms} of freedom, coupling degree {topology.coupling_degree}.",
+            f"Their topology: {topology.poc}, {freedoms} of freedom, {topology.coupling_words}.",
             "",
             *(BY_COORDINATES if self.coordinates else BY_LENGTHS),
             *((AWAY,) if moved else ()),
