@@ -184,8 +184,14 @@ def test_the_same_as_json(check) -> None:
         }
     ]
     sound = check(FOURBAR, "--json").json
-    counts = {"links": 4, "joints": 4, "freedoms": 1, "internal_freedoms": 0, "redundant_inputs": [], "architecture": ""}
-    facts = {**counts, "closed_form": False, "closed_form_checked": False, "closed_form_not_run": False}
+    counts = {"links": 4, "joints": 4, "freedoms": 1, "internal_freedoms": 0, "redundant_inputs": []}
+    facts = {
+        **counts,
+        "architecture": "",
+        "closed_form": False,
+        "closed_form_checked": False,
+        "closed_form_not_run": False,
+    }
     facts |= {"exact": None, "unproved": []}
     assert (sound["sound"], sound["faults"], sound["facts"]) == (True, [], facts)
 

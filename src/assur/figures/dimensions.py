@@ -57,7 +57,7 @@ def arcs(skeleton: Skeleton, radius: float) -> list[Arc]:
     form = record.closed_form
     latex = {item.name: item.latex for item in form.quantity_list} if form else {}
     named = {name: (item, label(latex.get(name, ""), name)) for name, item in record.angles.items()}
-    for item in record.inputs:
+    for item in record.drives:
         if item.coordinate.kind == "angle" and item.coordinate not in record.angles.values():
             named[item.name] = (item.coordinate, label(item.latex, item.name))
     marks = {mark.joint.name: mark for mark in skeleton.marks}
@@ -140,7 +140,7 @@ def _end_on(page: Canvas, at: FloatArray, *, towards: bool) -> None:
 
 def draw_measures(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
     """The value of every driven slider, measured along its rail from where it is zero."""
-    latex = {item.coordinate.joint: label(item.latex, item.name) for item in skeleton.record.inputs}
+    latex = {item.coordinate.joint: label(item.latex, item.name) for item in skeleton.record.drives}
     for mark in skeleton.marks:
         if not (mark.driven and mark.slides):
             continue

@@ -83,7 +83,7 @@ def _one_for_each(skeleton: Skeleton) -> list[Rod]:
 def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
     """A double arrow along every driven slide, an arc about every driven turn."""
     marks = {mark.joint.name: mark for mark in skeleton.marks}
-    for item in skeleton.record.inputs:
+    for item in skeleton.record.drives:
         mark, component = marks[item.coordinate.joint], item.coordinate.component
         steps = {mark.joint.type.components[first]: step for step, first in mark.joint.type.places}
         at = view(mark.shown)

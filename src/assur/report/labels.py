@@ -48,7 +48,7 @@ def is_label(latex: str) -> bool:
 
 def _of_inputs(record: MechanismRecord) -> Iterator[Problem]:
     """Of an input without a label of its own its name is one; it is set as words where need be."""
-    for actuated in record.inputs:
+    for actuated in record.drives:
         path: KeyPath = (*input_place(record, actuated.coordinate), "latex")
         if actuated.latex != actuated.name and not is_label(actuated.latex) and _stands(record, path):
             yield problem(record, path, _found(_written(record, path)), ALLOWED)

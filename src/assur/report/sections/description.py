@@ -56,10 +56,10 @@ def _counts(findings: Findings) -> list[Scalar]:
         Scalar("independent loops", float(len(graph.cut)), "", EXACT, note="joints − links + 1"),
         Scalar(
             "actuated joints",
-            float(len(record.inputs)),
+            float(len(record.drives)),
             "",
             EXACT,
-            note=", ".join(i.coordinate.joint for i in record.inputs),
+            note=", ".join(i.coordinate.joint for i in record.drives),
         ),
     ]
 
@@ -76,7 +76,7 @@ def _parameters(record: MechanismRecord) -> Table:
 
 def _inputs(record: MechanismRecord) -> Table:
     rows = []
-    for actuated in record.inputs:
+    for actuated in record.drives:
         unit = record.angle if actuated.coordinate.kind == "angle" else shown_unit(record.unit)
         symbol = PrintedFormula(inline(symbol_mathml(actuated.latex, actuated.name), actuated.name))
         joint = record.joints[actuated.coordinate.joint]
