@@ -101,7 +101,7 @@ def test_inputs_of_a_mechanism_with_dimensions_by_number():
         ([], {}, UsageError, "no limbs"),
         (3, {}, UsageError, "a topology is given by a name, a file or chains of joints, not by 3"),
         (None, {}, UsageError, "not by None"),
-        ("tripteron", {"mode": "free"}, UnknownNameError, "unknown mode 'free'; there is: home, translation"),
+        ("tripteron", {"mode": "free"}, UnknownNameError, "unknown mode 'free'; there is: 3T, home, translation"),
         ("tripteron", {"actuate": ["4.1"]}, UsageError, "there is no limb 4"),
         ("zeng2019", {"actuate": ["2.9"]}, UsageError, "limb 2 has joints 1 to 3"),
     ],

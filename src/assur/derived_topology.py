@@ -6,7 +6,9 @@ import dataclasses
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import get_args
+from typing import TypeGuard, get_args
+
+import numpy as np
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.contract.admission import admitted_record
@@ -22,7 +24,9 @@ from assur.topology.facts import InputsBy, Topology
 from assur.topology.met_modes import DRAWS, met_modes
 from assur.topology.notation import parse_chains
 from assur.topology.routes import told_point
+from assur.topology.screws.assembled import assembled_at
 from assur.topology.screws.configurations import ImmobileError
+from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.placing import place
 from assur.topology.screws.recognition import recognised
 from assur.topology.screws.twists import ShakyError
@@ -39,7 +43,7 @@ def topology(
     /,
     *,
     actuate: Sequence[str] | str | None = None,
-    mode: Mode | None = None,
+    mode: Mode | str | None = None,
 ) -> Topology:
     """The topology of a mechanism, derived by symbolic rules and by the rank of twists.
 
@@ -50,7 +54,8 @@ def topology(
             loops one after the other. By default those of the mechanism, and for chains the first P, R, H or C of each
             branch from the base, or an admissible set near it where these do not determine the mechanism.
         mode: "home" for the motion that is reached from the configuration as written; "translation" where the
-            platform keeps its orientation. By default what a topology's file says, else "home".
+            platform keeps its orientation; or a name that `operation_modes` gives, for the motion around that mode's
+            example. By default what a topology's file says, else "home".
 
     Returns:
         The facts as attributes; `print` shows the derivation.
@@ -70,8 +75,8 @@ def topology(
     """
     if isinstance(actuate, str):
         actuate = actuate.split(",")
-    if mode not in (None, *get_args(Mode)):
-        raise UnknownNameError("mode", str(mode), get_args(Mode))
+    if mode is not None and not _at_home(mode):
+        return _of_met_mode(what, actuate, mode)
     if isinstance(what, MechanismRecord):
         return _named(_of_record(what, actuate, mode), what)
     if not isinstance(what, str | Path | Sequence):
@@ -88,6 +93,29 @@ def topology(
         differences = () if actuate or mode else described.declared.differences(found)
         return dataclasses.replace(found, notes=(*found.notes, *differences))
     return _of_chains(parse_chains(what), actuate, mode or "home")
+
+
+def _at_home(mode: str) -> TypeGuard[Mode]:
+    """Whether a mode is one that the configuration as written has."""
+    return mode in get_args(Mode)
+
+
+def _of_met_mode(
+    what: str | Path | MechanismRecord | Sequence[str], actuate: Sequence[str] | None, name: str
+) -> Topology:
+    """Around the example of an operation mode that is met somewhere, which takes the place of home."""
+    linkages, described = _linkages(what, actuate)
+    met = {mode.name: mode for mode in met_modes(linkages)}
+    if name not in met:
+        known = [*get_args(Mode), *met]
+        raise UnknownNameError("mode", name, known, hint="those met by chance among assemblies; --modes lists them")
+    mode = met[name]
+    values = np.concatenate([mode.example[joint] for joint in linkages[0].joints])
+    built = assembled_at(linkages[0], values, mode.crossed)
+    found = analyse(built, inputs_by="given")
+    note = f"mode {name}: all this is said around an example of it, met by chance among assemblies"
+    found = dataclasses.replace(found, mode=name, notes=(note, *found.notes))
+    return found if described is None else _named(found, described)
 
 
 def _named(topology: Topology, described: MechanismRecord | TopologyDescription) -> Topology:
@@ -120,26 +148,28 @@ def operation_modes(what: str | Path | MechanismRecord | Sequence[str], /) -> tu
     >>> sorted(mode.name for mode in operation_modes(load_record("three_upu")))
     ['2T1R', '3R', '3T']
     """
-    if isinstance(what, MechanismRecord):
-        return met_modes([linkage(what)] * DRAWS)
+    return met_modes(_linkages(what, None)[0])
+
+
+def _linkages(
+    what: str | Path | MechanismRecord | Sequence[str], actuate: Sequence[str] | None
+) -> tuple[list[Linkage], MechanismRecord | TopologyDescription | None]:
+    """Linkages in which operation modes are met, of chains with several dimensions; and what says its name."""
     if isinstance(what, str) and not _is_name(what):
         what = [what]
     if isinstance(what, str | Path) and not means_topology(what):
-        return met_modes([linkage(admitted_record(what))] * DRAWS)
-    chains = load_topology(what).chains if isinstance(what, str | Path) else parse_chains(what)
-    names = default_inputs(chains)
-    return met_modes([place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)])
+        what = admitted_record(what)
+    if isinstance(what, MechanismRecord):
+        return [_driven(what, linkage(what), actuate)] * DRAWS, what
+    described = load_topology(what) if isinstance(what, str | Path) else None
+    chains = parse_chains(what) if described is None else described.chains  # type: ignore[arg-type]
+    names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
+    return [place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)], described
 
 
 def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mode | None) -> Topology:
-    built = linkage(record)
+    built = _driven(record, linkage(record), actuate)
     chains = recognised(built)
-    if actuate:
-        if chains is None:
-            raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
-        names = numbered_inputs(chains, actuate)
-        hinges = {name: group.joints[0] for name, group in built.groups.items()}
-        built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
     try:
         return analyse(built, chains, mode=mode or "home")
     except (ShakyError, ImmobileError):
@@ -147,6 +177,18 @@ def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mod
         if proved is None:
             raise
         return proved
+
+
+def _driven(record: MechanismRecord, built: Linkage, actuate: Sequence[str] | None) -> Linkage:
+    """A file's linkage with other joints actuated, where they are numbered."""
+    if not actuate:
+        return built
+    chains = recognised(built)
+    if chains is None:
+        raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
+    hinges = {name: group.joints[0] for name, group in built.groups.items()}
+    inputs = tuple((hinges.get(name, name), 0) for name in numbered_inputs(chains, actuate))
+    return dataclasses.replace(built, inputs=inputs)
 
 
 def _of_chains(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> Topology:

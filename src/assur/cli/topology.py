@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from assur.cli.options import PLAIN, Outcome, Plain
-from assur.errors import UnknownNameError, UsageError
+from assur.errors import UsageError
 
-Mode = Literal["home", "translation"]
-MODES: dict[str, Mode] = {"home": "home", "translation": "translation"}
 ENDINGS = (".svg", ".pdf", ".png")
 
 
@@ -30,7 +28,11 @@ def topology(
         str, Parameter(metavar="LIMB.JOINT,..", help="What is actuated, as 1.1,2.1,3.1, counted from the base.")
     ] = "",
     mode: Annotated[
-        str | None, Parameter(help="translation: the platform keeps its orientation. home: as the chains stand.")
+        str | None,
+        Parameter(
+            help="translation: the platform keeps its orientation. home: as the chains stand. Or a name of --modes, for"
+            " the motion around that mode's example."
+        ),
     ] = None,
     modes: Annotated[
         bool, Parameter(help="Also list its operation modes, wherever it can be assembled: met by chance.")
@@ -55,6 +57,7 @@ def topology(
         assur topology zeng2019
         assur topology zeng2019 --graph zeng2019.svg
         assur topology three_upu --modes
+        assur topology three_upu --mode 3R
         assur topology --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
         assur topology --chain "P[x] R[x] R[x] R[x]" \
             --chain "P[y] R[y] R[y] R[y]" --chain "P[z] R[z] R[z] R[z]"
@@ -68,7 +71,7 @@ def topology(
 
     path = output_file(graph, ENDINGS) if graph is not None else None
     asked = _asked(what, chain)
-    derived = derive(asked, actuate=_actuators(actuate), mode=_mode(mode))
+    derived = derive(asked, actuate=_actuators(actuate), mode=mode)
     met = operation_modes(asked) if modes else None
     return topology_answer.outcome(derived, path, met, latex=latex, ascii_only=ascii_)
 
@@ -85,13 +88,6 @@ def _asked(what: str | None, chain: Sequence[str]) -> str | tuple[str, ...]:
         hint = 'for example: assur topology zeng2019, or assur topology --chain "P[x] R[x] R[x] R[x]"'
         raise UsageError("no mechanism is named and no --chain given", hint=hint)
     return tuple(chain)
-
-
-def _mode(text: str | None) -> Mode | None:
-    """One of the modes, or none given."""
-    if text is not None and text not in MODES:
-        raise UnknownNameError("mode", text, MODES)
-    return MODES[text] if text is not None else None
 
 
 def _actuators(text: str) -> tuple[str, ...] | None:
