@@ -81,14 +81,16 @@ def pytest_configure(config):
 
 def pytest_collection_modifyitems(config, items):
     asked = [marker for marker in ASKED if marker not in config.option.markexpr]
-    left = []
+    left, kept = [], []
     for item in items:
         if marker := next((marker for marker in [*MISSING, *asked] if item.get_closest_marker(marker)), None):
             LEFT[marker] += marker in asked
             left.append(item)
+        else:
+            kept.append(item)
     if left:
         config.hook.pytest_deselected(items=left)
-        items[:] = [item for item in items if item not in set(left)]
+        items[:] = kept
 
 
 def pytest_runtest_logreport(report):

@@ -6,6 +6,7 @@ An analysis is imported where it is called, but for the position problem: a comm
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -182,7 +183,12 @@ def load(name: str | Path, /, **parameters: Any) -> Mechanism:
     >>> load("zeng2019", l2=300).parameters["l2"].value
     300.0
     """
-    return Mechanism(**vars(admitted_record(name, **parameters)))
+    return _of_record(admitted_record(name, **parameters))
+
+
+@lru_cache(maxsize=64)
+def _of_record(record: MechanismRecord) -> Mechanism:
+    return Mechanism(**vars(record))
 
 
 def names() -> tuple[str, ...]:

@@ -9,6 +9,7 @@ import pytest
 
 from assur.cache import KINDS
 from assur.joints.joint_type import JointType
+from assur.mechanism import load
 from assur.model import kept_readings
 from assur.model.dimensions import with_parameters
 from assur.model.file.reader import read_mechanism, read_text
@@ -28,6 +29,14 @@ def fresh(monkeypatch):
     calls = []
     monkeypatch.setattr("assur.model.file.reader.read_text", lambda *given: calls.append(given) or read_text(*given))
     return calls
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A user's own file of the five-bar: a built-in one is read once in a process."""
+    path = tmp_path / "own.toml"
+    path.write_text(file_of("fivebar").read_text(encoding="utf-8"), encoding="utf-8")
+    return path
 
 
 def parts(value):
@@ -57,11 +66,11 @@ def test_what_is_kept_is_what_was_read(name):
     assert parts(replace(kept, description=None)) == parts(replace(read, description=None))
 
 
-def test_a_file_is_read_once_wherever_it_lies(fresh, tmp_path):
-    load_record("fivebar")
-    load_record("fivebar")
+def test_a_file_is_read_once_wherever_it_lies(own, fresh, tmp_path):
+    load_record(own)
+    load_record(own)
     copy = tmp_path / "other.toml"
-    copy.write_text(file_of("fivebar").read_text(encoding="utf-8"), encoding="utf-8")
+    copy.write_text(own.read_text(encoding="utf-8"), encoding="utf-8")
     assert load_record(copy).file == copy
     assert len(fresh) == 1
     copy.write_text(copy.read_text(encoding="utf-8") + "\n", encoding="utf-8")
@@ -76,8 +85,8 @@ def test_other_dimensions_come_from_the_file():
 
 
 @pytest.mark.parametrize("damage", ["digit", "short", "empty", "others", "not a record"])
-def test_what_is_damaged_or_not_of_the_user_is_read_anew(cache, fresh, damage):
-    load_record("fivebar")
+def test_what_is_damaged_or_not_of_the_user_is_read_anew(cache, own, fresh, damage):
+    load_record(own)
     (path,) = cache.iterdir()
     content = path.read_bytes()
     if damage == "digit":
@@ -86,16 +95,16 @@ def test_what_is_damaged_or_not_of_the_user_is_read_anew(cache, fresh, damage):
         os.chmod(path, 0o666)  # noqa: PTH101
     else:
         path.write_bytes({"short": content[:-9], "empty": b"", "not a record": b"no digest\n{}"}[damage])
-    load_record("fivebar")
+    load_record(own)
     assert len(fresh) == 2
 
 
-def test_another_version_and_another_reader_read_anew(fresh, monkeypatch):
-    load_record("fivebar")
+def test_another_version_and_another_reader_read_anew(own, fresh, monkeypatch):
+    load_record(own)
     monkeypatch.setattr(kept_readings, "VERSION", "another")
-    load_record("fivebar")
+    load_record(own)
     monkeypatch.setattr(kept_readings, "_readers", lambda: "changed since")
-    load_record("fivebar")
+    load_record(own)
     assert len(fresh) == 3
 
 
@@ -107,12 +116,19 @@ def test_a_file_with_faults_is_not_kept(cache, tmp_path):
     assert not cache.exists()
 
 
-def test_a_cache_that_cannot_be_written_is_no_fault(monkeypatch, tmp_path, fresh):
+def test_a_cache_that_cannot_be_written_is_no_fault(own, fresh, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "file"))
-    load_record("fivebar")
-    load_record("fivebar")
+    load_record(own)
+    load_record(own)
     assert len(fresh) == 2
+
+
+def test_a_built_in_mechanism_is_one_object_and_a_file_of_ones_own_is_read_again(own):
+    assert load_record("fivebar") is load_record("fivebar")
+    assert load("fivebar") is load("fivebar")
+    assert load("fivebar", l2=210).values.l2 != load("fivebar").values.l2
+    assert load_record(own) is not load_record(own)
 
 
 def test_it_is_of_the_kinds_that_the_cache_knows():

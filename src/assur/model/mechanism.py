@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal, Self
@@ -260,7 +260,7 @@ class MechanismRecord:
     @property
     def without_closed_form(self) -> MechanismRecord:
         """The same, solved on its joint graph alone, with the file's names of modes."""
-        return replace(self, closed_form=None, closed_form_text="", modes=self.modes.of_file)
+        return _without_closed_form(self)
 
     @property
     def values(self) -> SimpleNamespace:
@@ -309,3 +309,8 @@ class MechanismRecord:
         """The coordinates of one joint, in the order of its components."""
         joint = self.joint(name)
         return tuple(item for item in self.coordinates if item.joint == joint.name)
+
+
+@lru_cache(maxsize=64)
+def _without_closed_form(record: MechanismRecord) -> MechanismRecord:
+    return replace(record, closed_form=None, closed_form_text="", modes=record.modes.of_file)

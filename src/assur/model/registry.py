@@ -6,6 +6,7 @@ A folder has a mechanism (`mechanism.toml`, with dimensions) or a topology alone
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -73,6 +74,8 @@ def left_out() -> tuple[LeftOutMechanism, ...]:
 def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecord:
     """The record of a built-in mechanism or of a file, with its closed form, if there is one beside it.
 
+    A built-in mechanism is one object for as long as its files say the same, so that what was found out of it is there.
+
     Args:
         name_or_path: a name, or the path of a `.toml` file or of a folder with a `mechanism.toml`.
         overrides: other values for parameters, in the units of the file.
@@ -90,9 +93,7 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     record = record_alone(name_or_path)
     beside = record.file.parent / CLOSED_FORM
     text = file_text(beside) if os.path.lexists(beside) else None  # what is there and no file is told
-    form = None if text is None else _closed_form(record, beside, text)
-    not_run = text is not None and form is None
-    record = record.with_closed_form(form, text or "", not_run=not_run)
+    record = _whole(record, text)
     if not overrides:
         return record
     from assur.model.dimensions import with_parameters  # which reads the file again, whatever was kept
@@ -108,6 +109,11 @@ def record_alone(name_or_path: str | Path, /) -> MechanismRecord:
     """
     path = file_of(name_or_path)
     text = description_text(path)
+    return _built_in_alone(text, path) if built_in(path) else _alone(text, path)
+
+
+def _alone(text: str, path: Path) -> MechanismRecord:
+    """The record of a text, read anew or as it was kept."""
     kept = kept_reading(text, path)
     if kept is not None:
         return kept
@@ -116,6 +122,16 @@ def record_alone(name_or_path: str | Path, /) -> MechanismRecord:
     record = read_text(text, path)
     keep_reading(record)
     return record
+
+
+_built_in_alone = lru_cache(maxsize=64)(_alone)
+
+
+@lru_cache(maxsize=64)
+def _whole(record: MechanismRecord, text: str | None) -> MechanismRecord:
+    """A record with the closed form of a text."""
+    form = None if text is None else _closed_form(record, record.file.parent / CLOSED_FORM, text)
+    return record.with_closed_form(form, text or "", not_run=text is not None and form is None)
 
 
 def _folder() -> Path:
