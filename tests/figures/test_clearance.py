@@ -42,7 +42,7 @@ def hues(image, colour):
     return int(np.sum((cosine > 0.97) & (size > 0.15)))
 
 
-@pytest.mark.parametrize("name", ["fivebar", "zeng2019", "three_upu"])
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019", pytest.param("three_upu", marks=pytest.mark.deep)])
 def test_the_gap_is_between_the_two_links_and_as_long_as_it_is_said(name):
     picture, item = made(name)
     gap = picture.data["ends"]

@@ -20,7 +20,7 @@ def test_no_pair_shares_a_joint_and_every_other_is_there(every):
     assert found == {frozenset((a, b)) for a in links for b in links if a != b} - hinged
 
 
-@pytest.mark.parametrize("name", ["zeng2019", "delta_4s", "tripteron"])
+@pytest.mark.parametrize("name", ["zeng2019", "tripteron", pytest.param("delta_4s", marks=pytest.mark.deep)])
 def test_clearances_are_those_of_manifold_at_every_pose(name):
     """The least distance of all parts, one by one and without any bounds, at each of a few poses."""
     record = assur.load(name)

@@ -70,7 +70,9 @@ def test_the_column_of_the_driven_freedom():
     assert limb.driven_column == 2
 
 
-@pytest.mark.parametrize(("count", "driven"), [(3, "base"), (4, "base"), (4, "leg")])
+@pytest.mark.parametrize(
+    ("count", "driven"), [(3, "base"), pytest.param(4, "base", marks=pytest.mark.deep), (4, "leg")]
+)
 def test_no_useful_limb_is_missed(count, driven):
     """Every word of R, P, C, P(4R) along x, y, z with so many freedoms, tried by twists and rules, with no pruning."""
     found = {limb.key for limb in limb_types(SPACE, 5, driven) if limb.freedoms == count and "U" not in letters(limb)}

@@ -43,7 +43,7 @@ CASES = [
     ("fivebar", 24, ()),
     ("planar_3rrr", 20, (("phi", 0.2),)),
     ("planar_3rrr", 40, (("x", 10.0), ("y", -5.0))),
-    ("zeng2019", 12, ()),
+    pytest.param("zeng2019", 12, (), marks=pytest.mark.deep),
     pytest.param("delta_4s", 6, (), marks=pytest.mark.deep),
     ("three_rps", 8, ()),
     ("three_rps", 20, (("z", 250.0),)),

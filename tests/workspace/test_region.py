@@ -148,8 +148,16 @@ def test_random_poses_agree_with_the_inverse_solution(stroked):
     assert deviation < 0.003
 
 
-@pytest.mark.parametrize("mode", ["+-+-+", "-+-++", "--+++", "+++++"])
-@pytest.mark.parametrize("parameters", [{}, {"l7": 25.0, "l8": 10.0, "l2": 200.0, "l6": 190.0}])
+OTHER = {"l7": 25.0, "l8": 10.0, "l2": 200.0, "l6": 190.0}
+MODES_AND_DIMENSIONS = [
+    *(("+-+-+", {}), ("--+++", {}), ("-+-++", OTHER), ("+++++", OTHER)),
+    *(pytest.param(*case, marks=pytest.mark.deep)
+      for case in (("-+-++", {}), ("+++++", {}), ("+-+-+", OTHER), ("--+++", OTHER))),
+]  # fmt: skip
+"""Each mode once in every run, two of them with other dimensions; all with both in the deep one."""
+
+
+@pytest.mark.parametrize(("mode", "parameters"), MODES_AND_DIMENSIONS)
 def test_other_modes_and_dimensions_agree_with_quadrature(mode, parameters):
     mechanism = assur.load("zeng2019", **parameters)
     box = [[-130.0, 80.0], [-100.0, 100.0], [-300.0, 300.0]]

@@ -37,7 +37,7 @@ def parameters(text, name=""):
 
 @pytest.mark.parametrize(
     ("text", "name"),
-    [pytest.param(*item, marks=pytest.mark.deep) if item[0] in ("H4", "3UPS&UP") else item for item in SAME],
+    [pytest.param(*item, marks=pytest.mark.deep) if item[0] in ("H4", "3UPS&UP", "3-RRPaR") else item for item in SAME],
 )
 def test_the_direct_problem_has_the_same_solutions_as_by_coordinates(tmp_path, monkeypatch, text, name):
     """The joints' values differ by those at home, which is the same place."""
