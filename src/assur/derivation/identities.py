@@ -161,8 +161,9 @@ def stroke_identities(
     part: SolvedSet, vector: StrokeVector, witness: ModularWitness
 ) -> dict[sympy.Symbol, Multipliers]:
     """Length and angle of a vector by the quadric of the angle's circle."""
-    reach, (x, y) = vector.length + vector.along, vector.direction.unknowns
+    reach, components = vector.length + vector.along, vector.direction.unknowns
     name, size = unit(vector.circle), reach**2 + vector.beside**2
     root = next(own for own in part.roots if witness.is_zero(own.quantity - reach))
-    angle = {own: {name: own * size / (x**2 + y**2)} if vector.beside != 0 else {} for own in vector.circle.unknowns}
+    square = sum((own**2 for own in components), ZERO)
+    angle = {own: {name: own * size / square} if vector.beside != 0 else {} for own in vector.circle.unknowns}
     return {root.symbol: {name: -size}, vector.length: {}} | angle

@@ -61,6 +61,7 @@ class _Proof:
         lengths = self._lengths()
         loops = {name: str(value_of(form)) for name, form in zip(self.names, self.loops.forms, strict=True)}
         return DerivationProof(
+            {str(own.symbol): str(own.formula) for own in self.solution.placed.named.definitions},
             tuple(self._orientations()),
             tuple(self._reasons()),
             self._named_lengths(),
@@ -144,8 +145,13 @@ def _polynomial(eliminant: AngleEliminant, own: PolynomialIdentities) -> ProvedP
 
 
 def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
-    (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
     reach = vector.length + vector.along
+    if vector.circle.kind == "rod":
+        yield from (
+            (own, reach * part) for own, part in zip(vector.direction.unknowns, vector.circle.unknowns, strict=True)
+        )
+        return
+    (x, y), (cosine, sine) = vector.direction.unknowns, vector.circle.unknowns
     yield x, reach * cosine - vector.beside * sine
     yield y, reach * sine + vector.beside * cosine
 

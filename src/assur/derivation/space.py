@@ -33,13 +33,9 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
     >>> [*without_identities(analytic_solution(load_record("h4_robot"), "direct"))]
     []
     """
-    placed, loops = solution.placed, solution.loops
-    if placed.named.definitions:
-        yield "directions that what is given turns in space"
+    loops = solution.loops
     if loops.axes:
         yield "axes that links share which turn in space"
-    if any(own.kind == "rod" for own in loops.strokes.values()):
-        yield "rods whose length is sought"
     if loops.oblique:
         yield "sliders oblique to the axis about which they turn"
     if loops.framed:

@@ -8,6 +8,8 @@ import pytest
 
 from assur.cli.main import main
 from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.synthesis.drafting.repeating import repeated
 from assur.verifier.derivations.check import is_derivation, problems_of, verify_derivation
 from assur.verifier.reading import MalformedError, RefusedError
 
@@ -57,6 +59,58 @@ def test_towers_are_verified_exactly(derived, name, problem, capsys):
 def test_the_condition_of_the_seed_is_the_one_under_which_it_is_complete(derived, capsys):
     (proved,) = verified(derived("zeng2019", "direct", capsys), "zeng2019")
     assert proved.conditions == ("H1 != 0", "N3 != 0")
+
+
+LEGS = ("S P S", "R[y] S S")
+"""Of platforms on six of them, whose pose has a quaternion."""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("limb", LEGS)
+def test_legs_that_point_anywhere_are_verified_at_a_pose_with_a_quaternion(limb, tmp_path, capsys):
+    path = tmp_path / "draft.toml"
+    path.write_text(drafted(repeated(limb, 6), path).text, encoding="utf-8")
+    assert main(["derive", str(path), "--problem", "inverse", "--prove", "--json"]) == 0
+    (proved,) = verify_derivation(capsys.readouterr().out.encode(), path.read_text(encoding="utf-8"))
+    assert (proved.branches, proved.closed) == (64, 64)
+
+
+def another_rotation(problem):
+    problem["proof"]["named"]["R12"] = problem["sets"][0]["formulas"]["R12"] = "2*qw*qz + 2*qx*qy"
+
+
+def another_formula_of_a_name(problem):
+    problem["sets"][0]["formulas"]["R12"] = "2*qw*qz + 2*qx*qy"
+
+
+def a_name_of_what_is_given(problem):
+    problem["proof"]["named"]["qw"] = "1"
+
+
+def a_rod_on_no_hinge(problem):
+    (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "tube1")
+    own["hinge"] = None
+
+
+def a_vector_that_is_another(problem):
+    name, text = next(iter(problem["proof"]["vectors"].items()))
+    problem["proof"]["vectors"][name] = f"-({text})"
+
+
+IN_SPACE = (another_rotation, another_formula_of_a_name, a_name_of_what_is_given, a_rod_on_no_hinge,
+            a_vector_that_is_another)  # fmt: skip
+
+
+@pytest.mark.deep
+def test_the_inverse_problem_of_six_legs_is_verified_and_refused_where_it_was_changed(derived, capsys):
+    document = derived("gough_stewart", "inverse", capsys)
+    (proved,) = verified(document, "gough_stewart")
+    assert (proved.branches, proved.closed) == (64, 64)
+    for change in IN_SPACE:
+        other = copy.deepcopy(document)
+        change(other["problems"][0])
+        with pytest.raises(RefusedError):
+            verified(other, "gough_stewart")
 
 
 def changed_formula(problem):

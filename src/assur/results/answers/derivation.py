@@ -131,9 +131,11 @@ class ProvedSet:
 class DerivationProof:
     """What `assur verify` checks of a derivation.
 
-    `vectors` are components of lengths along directions that turn; `units` are squares that are 1; `loops` vanish.
+    `named` are formulas of what is given, in order; `vectors` are components of lengths along directions that turn;
+    `units` are squares that are 1; `loops` vanish.
     """
 
+    named: Mapping[str, str]
     orientations: tuple[ProvedOrientation, ...]
     reasons: tuple[ProvedReason, ...]
     sliding: Mapping[str, str]

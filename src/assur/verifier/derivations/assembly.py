@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, hops, point
-from assur.verifier.field import NoExactError
 from assur.verifier.formula import NumberType, number
 from assur.verifier.graph import STEPS, Graph
 from assur.verifier.mechanism import COORDINATES, FileMechanism
@@ -14,26 +13,38 @@ from assur.verifier.vectors import ONE, ZERO, Matrix, Vector, about, add, apply,
 
 ANGLES = ("phi", "theta", "psi")
 LENGTHS = ("x", "y", "z")
+QUATERNION = ("qw", "qx", "qy", "qz")
 
 
 def given_names(mechanism: FileMechanism, problem: str) -> tuple[list[str], list[str]]:
-    """Names of lengths and of angles that are given: inputs, or coordinates of the pose.
-
-    Errors:
-        NoExactError: a pose by a quaternion.
-    """
+    """Names of lengths and of angles that are given: inputs, or coordinates of the pose but for a quaternion."""
     if problem == "inverse":
-        if not {*mechanism.pose} <= {*LENGTHS, *ANGLES}:
-            raise NoExactError("a pose with a quaternion")
         return [own for own in mechanism.pose if own in LENGTHS], [own for own in mechanism.pose if own in ANGLES]
     kinds = [kind_of(mechanism, *own) for own in mechanism.inputs]
     lengths = [own.name for own, kind in zip(mechanism.printed, kinds, strict=True) if kind == "slide"]
     return lengths, [own.name for own, kind in zip(mechanism.printed, kinds, strict=True) if kind != "slide"]
 
 
+def has_quaternion(mechanism: FileMechanism, problem: str) -> bool:
+    """Whether a unit quaternion is given."""
+    return problem == "inverse" and {*QUATERNION} <= {*mechanism.pose}
+
+
 def platform_turns(mechanism: FileMechanism, proof: Mapping[str, Any]) -> bool:
     """Whether a proof has it that the platform turns about a direction."""
     return any(own["link"] == mechanism.platform and own["kind"] == "circle" for own in proof["orientations"])
+
+
+def of_quaternion(w: Any, x: Any, y: Any, z: Any) -> Matrix:
+    """The rotation of a unit quaternion."""
+
+    def entry(i: int, k: int) -> Any:
+        square = 2 * (w * w + own[i] * own[i]) - 1
+        return square if i == k else 2 * (own[i] * own[k] + (-1 if (k - i) % 3 == 1 else 1) * w * own[3 - i - k])
+
+    own = (x, y, z)
+    a, b, c = (tuple(entry(i, k) for k in range(3)) for i in range(3))
+    return a, b, c
 
 
 def kind_of(mechanism: FileMechanism, joint: str, component: str) -> str:
@@ -50,7 +61,7 @@ class FileAssembly:
         problem: "direct" or "inverse".
         numbers: the number type.
         names: values of the parameters.
-        given: lengths by their names, angles as `cos_<name>` and `sin_<name>`.
+        given: lengths and a unit quaternion by their names, angles as `cos_<name>` and `sin_<name>`.
         zero: whether a number vanishes.
         turning: whether the platform may turn by the one angle that the pose leaves out, which is zero else.
 
@@ -86,6 +97,9 @@ class FileAssembly:
                 cosine, sine = cosine * c + sine * s, sine * c - cosine * s
             locked[f"{joint} {place}"] = cosine, times(own.sense, sine)
         self.hops = [*hops(self.graph, locked)]
+        if has_quaternion(mechanism, problem):
+            turned = of_quaternion(*(given[name] for name in QUATERNION))
+            self.hops.append(Hop(mechanism.base, mechanism.platform, turned))
         if problem == "inverse" and {*ANGLES} & {*mechanism.pose}:
             left_out = [name for name in ANGLES if name not in mechanism.pose]
             free = ANGLES.index(left_out[0]) if turning and len(left_out) == 1 else len(ANGLES)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from assur.verifier.derivations.assembly import FileAssembly, given_names, platform_turns
+from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
 from assur.verifier.derivations.turning import ClaimedTurn, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
@@ -68,7 +68,10 @@ class _DrawnBranches:
         given: dict[str, Any] = {name: field.uniform() for name in lengths}
         for name in angles:
             given[f"cos_{name}"], given[f"sin_{name}"] = field.circle(AngleSum({f" {name}": Fraction(1)}))
-        self.values = {**self.names, **given}
+        self.values = dict(self.names)
+        if has_quaternion(mechanism, problem["problem"]):
+            given |= zip(QUATERNION, _unit_quaternion(*(field.uniform() for _ in range(3))), strict=True)
+        self.values |= given
         turning = platform_turns(mechanism, problem["proof"])
         self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero, turning)
 
@@ -173,6 +176,12 @@ class _DrawnBranches:
     def _vector(self, parts: Sequence[str], values: Mapping[str, Any]) -> Vector:
         x, y, z = (self._value(part, values) for part in parts)
         return x, y, z
+
+
+def _unit_quaternion(x: Element, y: Element, z: Element) -> tuple[Element, Element, Element, Element]:
+    """That of which the vector part over the scalar one, where both are doubled, is drawn."""
+    square = x * x + y * y + z * z
+    return (1 - square) / (1 + square), 2 * x / (1 + square), 2 * y / (1 + square), 2 * z / (1 + square)
 
 
 def _zero(number: Any) -> bool:

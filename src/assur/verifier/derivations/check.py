@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from assur.verifier.derivations.assembly import FileAssembly, given_names, platform_turns
+from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
 from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.known_formulas import KnownFormulas, Multiples
 from assur.verifier.derivations.orientations import OrientationCheck
@@ -119,6 +119,10 @@ class _ProblemCheck(KnownFormulas):
             cosine, sine = symbol(f"cos_{name}"), symbol(f"sin_{name}")
             numbers.squares[f"sin_{name}"] = 1 - cosine * cosine
             given |= {f"cos_{name}": cosine, f"sin_{name}": sine}
+        if has_quaternion(own, self.name):
+            w, x, y, z = map(symbol, QUATERNION)
+            numbers.squares[QUATERNION[-1]] = 1 - w * w - x * x - y * y
+            given |= zip(QUATERNION, (w, x, y, z), strict=True)
         super().__init__(numbers, {**parameters, **given}, own.positive)
         self.conditions: list[str] = []
         self.circles: set[str] = set()
@@ -130,6 +134,7 @@ class _ProblemCheck(KnownFormulas):
 
     def findings(self) -> ProvedProblem:
         """What is proved."""
+        self._named()
         orientations = OrientationCheck(self.assembly, self, self.proof)
         turns = orientations.turns()
         self._unknowns(turns)
@@ -148,6 +153,14 @@ class _ProblemCheck(KnownFormulas):
         checked = closing_branches(self.mechanism, self.problem, self.conditions)
         assumed = tuple(own.name for own in self.mechanism.parallelograms)
         return ProvedProblem(self.name, count, tuple(self.conditions), assumed, tuple(orientations.ways), checked)
+
+    def _named(self) -> None:
+        """Formulas of what is given, by names."""
+        for name, text in self.proof["named"].items():
+            if name in self.known:
+                raise RefusedError(f"{name} has two formulas")
+            self.names[name] = self.checked(text)
+            self.known[name] = symbol(name)
 
     # unknowns and loops
 
@@ -270,6 +283,8 @@ class _ProblemCheck(KnownFormulas):
         self.known = {name: own for name, own in self.known.items() if name not in later}
         formulas: dict[str, Term] = {}
         for name, text in given["formulas"].items():
+            if self.proof["named"].get(name) == text:
+                continue
             if name in self.known:
                 raise RefusedError(f"{name} has two formulas")
             if name in choices:

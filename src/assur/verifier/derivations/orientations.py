@@ -8,7 +8,7 @@ from typing import Any
 from assur.verifier.derivations.assembly import FileAssembly
 from assur.verifier.derivations.known_formulas import KnownFormulas
 from assur.verifier.derivations.terms import Term
-from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, point, reached, rods, same
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, reached, rods, same
 from assur.verifier.reading import RefusedError
 from assur.verifier.vectors import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 
@@ -126,30 +126,42 @@ class OrientationCheck:
         return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
 
     def _on_rod(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
-        """A link between two balls, or one on a hinge across the axis about which its carrier turns.
+        """A link between balls, with what slides on it, or one on a hinge across the axis of its carrier.
 
         Its line is not along that hinge. So Rot(axis, psi) Rot(hinge, phi) takes it to any direction but for a few.
         """
-        line, hinge, graph = turn.line, turn.hinge, self.assembly.graph
+        line, hinge = turn.line, turn.hinge
         if line is None or not self.zero(plus(dot(line, line), -1)):
             return False
         leader = next(own for own in turns.values() if own.rod == turn.rod)
         parallel = any(
             {leader.link, turn.link} == {*rods(self.mechanism, own)} for own in self.mechanism.parallelograms
         )
-        if hinge is None:
-            joints = [name for name, own in self.mechanism.joints.items() if turn.link in (own.parent, own.child)]
-            balls = all(self.mechanism.joints[name].type == "spherical" for name in joints)
-            near, far = (point(graph, name, turn.link) for name in joints)
-            straight = all(map(self.zero, cross(line, subtract(far, near))))
-            return balls and straight and (leader is turn or parallel) and same(turn.constant, ONE, self.zero)
         axis = turn.axis
+        if hinge is None and (leader is turn or parallel):
+            return self._between_balls(turn.link) and same(turn.constant, ONE, self.zero)
+        if hinge is None:
+            return self._with_leader(turn, leader)
         if axis is None or not self.zero(dot(hinge, axis)) or all(map(self.zero, cross(hinge, line))):
             return False
         if leader is not turn:
-            between = self._reached(leader.link, None).get(turn.link)
-            return between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+            return self._with_leader(turn, leader)
         return any(self._carries(own, turn, axis, hinge) for own in self.assembly.hops)
+
+    def _with_leader(self, turn: ClaimedTurn, leader: ClaimedTurn) -> bool:
+        """Whether a link turns as another does."""
+        between = self._reached(leader.link, None).get(turn.link)
+        alike = (
+            turn.line is not None and leader.line is not None and all(map(self.zero, subtract(turn.line, leader.line)))
+        )
+        return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+
+    def _between_balls(self, link: str) -> bool:
+        """Whether ball joints alone hold a link and what does not turn against it; the base does."""
+        inside = self._reached(link, None)
+        joints = self.mechanism.joints.values()
+        leaving = [own.type for own in joints if (own.parent in inside) != (own.child in inside)]
+        return self.mechanism.base not in inside and {*leaving} == {"spherical"}
 
     def _carries(self, hop: Hop, turn: ClaimedTurn, axis: Vector, hinge: Vector) -> bool:
         """Whether a hop is the hinge of a rod: Rot(axis, psi) Rot(hinge, phi) constant is its orientation."""
