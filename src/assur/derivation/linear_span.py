@@ -52,6 +52,8 @@ class LinearSpan:
     def multipliers(self, target: Form) -> Multipliers:
         """Of each equation in a form. Errors: NoIdentityError."""
         rows = dict(self._rows)
+        if (same := self._one_of_them(target)) is not None:
+            return same
         if not self._spanned(target, rows):
             raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
         for name in self._rows:
@@ -63,6 +65,15 @@ class LinearSpan:
             whole = self._shares(target, self._rows)
             return shares if _divides(whole) else whole
         return shares
+
+    def _one_of_them(self, target: Form) -> Multipliers | None:
+        """Of a form that is an equation by any names of its coefficients, or that with its sign turned."""
+        for name, form in self._rows.items():
+            for sense in (ONE, -ONE):
+                keys = form.keys() | target.keys()
+                if all(self._witness.is_zero(target.get(key, ZERO) - sense * form.get(key, ZERO)) for key in keys):
+                    return {name: sense}
+        return None
 
     def _shares(self, target: Form, rows: Mapping[str, Form]) -> Multipliers:
         """Multipliers of some of the equations, of which a form follows."""

@@ -61,18 +61,27 @@ class UnknownDirection:
         return len(self.unknowns) - (self.kind != "stroke")
 
 
+@dataclass(frozen=True)
+class SharedAxis:
+    """One equation of an axis that two links share: the axis in the parent less that in the child, along this."""
+
+    turn: Hinge
+    along: Vector
+
+
 @dataclass(frozen=True, eq=False)
 class LoopEquations:
     """What vanishes.
 
     Attributes:
-        forms: linear equations, each zero; the first `axes` of them are those of axes that links share.
+        forms: linear equations, each zero; the first of them are those of axes that links share.
         directions: unknowns of links that turn, and of rods.
         lengths: index in the joint values -> symbol of a length that is sought.
         strokes: such a length along a direction that turns -> the circle by which it turns. It is a coefficient.
         point: the platform's point as linear forms.
         relations: dimensions that follow from others, without which no loop closes.
         carriers: circles of links that carry axes of other links which turn. They are coefficients.
+        shared: of each of the first equations the axis and what it is taken along.
         framed: circles of links in whose frame loops are written, as several joints slide on each.
         oblique: length of a slider oblique to the axis about which it turns -> its symbol in what turns. Both are one.
     """
@@ -84,9 +93,14 @@ class LoopEquations:
     strokes: Mapping[sympy.Symbol, UnknownDirection] = field(default_factory=dict)
     relations: tuple[Definition, ...] = ()
     carriers: tuple[UnknownDirection, ...] = ()
-    axes: int = 0
+    shared: tuple[SharedAxis, ...] = ()
     framed: tuple[UnknownDirection, ...] = ()
     oblique: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
+
+    @property
+    def axes(self) -> int:
+        """How many equations of axes that links share there are."""
+        return len(self.shared)
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:
@@ -117,12 +131,16 @@ class _Loops:
             reached = add(self._place(joint.parent, start, point), self._slid(joint))
             gaps.append(subtract(reached, self._place(joint.child, end, point)))
         platform = self._place(self.record.platform.link, self.symbols.geometry.platform, point)
-        shared = [part for turn in self.placed.hinges for part in self._apart(turn)]
+        shared = [own for turn in self.placed.hinges for own in self._apart(turn)]
         framed = self._framed()
         gaps = [self._in_frame(gap, framed) for gap in gaps]
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
-        used = {symbol for row in (*shared, *rows, *platform) for symbol in sympy.sympify(row).free_symbols}
+        used = {
+            symbol
+            for row in (*(row for row, _ in shared), *rows, *platform)
+            for symbol in sympy.sympify(row).free_symbols
+        }
         directions = [
             direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
         ]
@@ -133,18 +151,18 @@ class _Loops:
         if relations:
             forms = [self._form(row, directions, framed) for row in rows]
         x, y, z = (self._form(part, directions) for part in platform)
-        axes = [form for row in shared if (form := self._form(row, directions))]
+        axes = [(form, own) for row, own in shared if (form := self._form(row, directions))]
         own = [form for form in forms if form]
         carriers = tuple(own for own in directions if own in self._carriers)
         return LoopEquations(
-            (*axes, *own),
+            (*(form for form, _ in axes), *own),
             tuple(directions),
             dict(self.lengths),
             (x, y, z),
             {length: own for length, own in self.strokes.items() if own not in framed},
             relations,
             carriers,
-            len(axes),
+            tuple(own for _, own in axes),
             framed,
             dict(self.oblique),
         )
@@ -203,7 +221,7 @@ class _Loops:
         numbers = {own.circle for own in self.placed.links.values() if own.second is not None}
         return [self.circles[number] for number in numbers if number is not None]
 
-    def _apart(self, turn: Hinge) -> Vector:
+    def _apart(self, turn: Hinge) -> Iterator[tuple[sympy.Expr, SharedAxis]]:
         """How far an axis w in two links is from being one, along what turns one of them.
 
         That one turns about v: it has v.w, and w - v (v.w) and v x w turn by its angle.
@@ -211,26 +229,26 @@ class _Loops:
         ends = [(link, self._axis_in(link, turn)) for link in (turn.parent, turn.child)]
         first, second = (self.placed.links[link] for link, _ in ends)
         if any(own.rod is not None for own in (first, second)):
-            return (0, 0, 0)
+            return
         axes = [self.carried(link, axis) for link, axis in ends]
-        if not any(self._tidied(subtract(*axes))):
-            return (0, 0, 0)
+        gap = self._tidied(subtract(*axes))
+        if not any(gap):
+            return
         turning = [k for k, own in enumerate((first, second)) if own.circle is not None and own.second is None]
         if not turning:
-            return self._tidied(subtract(*axes))
+            yield from ((part, SharedAxis(turn, along)) for part, along in zip(gap, UNTURNED, strict=True))
+            return
         k = max(turning, key=lambda k: len({symbol for part in axes[k] for symbol in sympy.sympify(part).free_symbols}))
         (link, axis), own, other = ends[k], (first, second)[k], axes[1 - k]
         if own.axis is None or own.circle is None:
-            return (0, 0, 0)
+            return
         share = sympy.simplify(dot(self._within(link, own), axis))
         start = self._short(own.axis, subtract(apply(own.constant, axis), scaled(own.axis, share)))
         cosine, sine = self.circles[own.circle].unknowns
         size = 1 - share**2
-        return (
-            dot(own.axis, other) - share,
-            dot(start, other) - size * cosine,
-            dot(self._short(own.axis, cross(own.axis, start)), other) - size * sine,
-        )
+        beside = self._short(own.axis, cross(own.axis, start))
+        for along, number in ((own.axis, share), (start, size * cosine), (beside, size * sine)):
+            yield dot(along, other) - number, SharedAxis(turn, scaled(along, 1 if k else -1))
 
     def _within(self, link: str, own: Orientation) -> Vector:
         """The axis about which a link turns, in its own frame."""

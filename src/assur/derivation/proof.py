@@ -13,7 +13,7 @@ from assur.derivation.elimination import SolvedSet
 from assur.derivation.identities import SetIdentities, set_identities
 from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.linear_span import LinearSpan, Multipliers, NoIdentityError, unit
-from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.loop_equations import SharedAxis, UnknownDirection
 from assur.derivation.orientations import Orientation
 from assur.derivation.polynomial_identities import PolynomialIdentities, polynomial_identities
 from assur.derivation.solution import AnalyticSolution
@@ -22,6 +22,7 @@ from assur.derivation.strokes import StrokeVector, stroke_vectors
 from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import (
     DerivationProof,
+    ProvedAxis,
     ProvedOrientation,
     ProvedPolynomial,
     ProvedReason,
@@ -68,6 +69,7 @@ class _Proof:
             {str(own): str(formula) for vector in self.vectors for own, formula in _components(vector)},
             {unit(own): str(own.quadric) for own in self.loops.directions},
             loops,
+            dict(zip(self.names, map(_axis, self.loops.shared), strict=False)),
             tuple(sets),
             lengths,
         )
@@ -104,11 +106,11 @@ class _Proof:
         circles: dict[int, UnknownDirection] = {}
         placed = self.solution.placed.links
         for link, own in placed.items():
-            if link in used and own.circle is not None:
+            if link in used and own.circle is not None and own.second is None:
                 circles[own.circle] = used[link]
         for link, own in placed.items():
             circle = circles.get(own.circle) if own.circle is not None else None
-            yield _orientation(link, own, circle, rods.get(link))
+            yield _orientation(link, own, circle, rods.get(link), used.get(link) if own.second is not None else None)
 
     def _reasons(self) -> Iterator[ProvedReason]:
         for own in self.solution.placed.reasons:
@@ -144,6 +146,10 @@ def _polynomial(eliminant: AngleEliminant, own: PolynomialIdentities) -> ProvedP
     )
 
 
+def _axis(own: SharedAxis) -> ProvedAxis:
+    return ProvedAxis(next(iter(own.turn.joints)), _vector(own.along))
+
+
 def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
     reach = vector.length + vector.along
     if vector.circle.kind == "rod":
@@ -157,9 +163,14 @@ def _components(vector: StrokeVector) -> Iterator[tuple[sympy.Symbol, sympy.Expr
 
 
 def _orientation(
-    link: str, own: Orientation, circle: UnknownDirection | None, rod: UnknownDirection | None
+    link: str,
+    own: Orientation,
+    circle: UnknownDirection | None,
+    rod: UnknownDirection | None,
+    second: UnknownDirection | None,
 ) -> ProvedOrientation:
     kind = "rod" if own.rod is not None else "circle" if own.circle is not None else "fixed"
+    kind = kind if own.second is None else "carried"
     return ProvedOrientation(
         link, kind, _matrix(own.constant),
         None if own.axis is None else _vector(own.axis),
@@ -167,6 +178,7 @@ def _orientation(
         None if own.hinge is None else _vector(own.hinge),
         None if own.line is None else _vector(own.line),
         None if rod is None else tuple(map(str, rod.unknowns)),
+        ABSENT if second is None else tuple(map(str, second.unknowns)),
     )  # fmt: skip
 
 

@@ -19,8 +19,16 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
     []
     """
     yield from without_identities(solution)
-    record = solution.symbols.record
-    turned = solution.placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
+    placed, loops, record = solution.placed, solution.loops, solution.symbols.record
+    if placed.named.definitions:
+        yield "directions that what is given turns in space"
+    if loops.shared:
+        yield "axes that links share which turn in space"
+    if any(own.kind == "rod" for own in loops.strokes.values()):
+        yield "rods whose length is sought"
+    if any(own.third is not None for own in placed.reasons):
+        yield "links that do not turn because three directions close"
+    turned = placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
     if solution.symbols.problem == "inverse" and turned:
         yield "a platform of whose orientation the pose says a part"
 
@@ -34,8 +42,6 @@ def without_identities(solution: AnalyticSolution) -> Iterator[str]:
     []
     """
     loops = solution.loops
-    if loops.axes:
-        yield "axes that links share which turn in space"
     if loops.oblique:
         yield "sliders oblique to the axis about which they turn"
     if loops.framed:

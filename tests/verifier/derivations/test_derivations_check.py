@@ -12,6 +12,7 @@ from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
 from assur.verifier.derivations.check import is_derivation, problems_of, verify_derivation
 from assur.verifier.reading import MalformedError, RefusedError
+from spherical import OBLIQUE, QUATERNION, spherical
 
 TOWERS = ("fivebar", "zeng2019", "tripteron", "orthoglide", "linear_delta_4r", "delta_4s", "tsai_platform",
           "three_p2us", "linear_delta_4s", "three_crr")  # fmt: skip
@@ -111,6 +112,62 @@ def test_the_inverse_problem_of_six_legs_is_verified_and_refused_where_it_was_ch
         change(other["problems"][0])
         with pytest.raises(RefusedError):
             verified(other, "gough_stewart")
+
+
+def an_axis_of_another_joint(problem):
+    problem["proof"]["axes"]["loop1"]["joint"] = "leg2.B"
+
+
+def an_axis_along_nothing(problem):
+    problem["proof"]["axes"]["loop1"]["along"] = ["0", "0", "0"]
+
+
+def a_loop_that_is_no_axis(problem):
+    del problem["proof"]["axes"]["loop1"]
+
+
+def no_axis(problem):
+    del problem["proof"]["axes"]["loop1"], problem["proof"]["loops"]["loop1"]
+
+
+def of_platform(problem):
+    (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "platform")
+    return own
+
+
+def carried_by_another(problem):
+    of_platform(problem)["circle"] = ["cos_leg2_distal", "sin_leg2_distal"]
+
+
+def carried_on_another_hinge(problem):
+    of_platform(problem)["hinge"] = of_platform(problem)["axis"]
+
+
+def carried_by_itself(problem):
+    of_platform(problem)["second"] = of_platform(problem)["circle"]
+
+
+def carried_from_elsewhere(problem):
+    of_platform(problem)["constant"] = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]
+
+
+SHARED = (an_axis_of_another_joint, an_axis_along_nothing, a_loop_that_is_no_axis, no_axis)
+CARRIED = (carried_by_another, carried_on_another_hinge, carried_by_itself, carried_from_elsewhere)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("problem", ["inverse", "direct"])
+def test_axes_that_links_share_and_links_that_these_carry_are_verified(problem, tmp_path, capsys):
+    path = spherical(tmp_path, QUATERNION, OBLIQUE)
+    assert main(["derive", str(path), "--problem", problem, "--prove", "--json"]) == 0
+    data, text = capsys.readouterr().out, path.read_text(encoding="utf-8")
+    (proved,) = verify_derivation(data.encode(), text)
+    assert (proved.branches, proved.closed) == (8, 8)
+    for change in (*SHARED, *(CARRIED if problem == "direct" else ())):
+        other = json.loads(data)
+        change(other["problems"][0])
+        with pytest.raises(RefusedError):
+            verify_derivation(json.dumps(other).encode(), text)
 
 
 def changed_formula(problem):

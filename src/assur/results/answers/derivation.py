@@ -64,10 +64,11 @@ Multiples = Mapping[str, str]
 
 @dataclass(frozen=True)
 class ProvedOrientation:
-    """How a link may be turned: not at all, on a circle about an axis, or along a rod's direction.
+    """How a link may be turned: not at all, on a circle about an axis, carried on a hinge by such a link, as a rod.
 
     It turns by `constant`, by cosine and sine of `circle` about `axis`. Of a rod `line` is its direction, after
-    `constant`, and `hinge` one across it, that turns with the circle; it is along the unit vector `rod`.
+    `constant`, and `hinge` one across it, that turns with the circle; it is along the unit vector `rod`. A carried link
+    turns by cosine and sine of `second` about `hinge` first.
     """
 
     link: str
@@ -78,6 +79,7 @@ class ProvedOrientation:
     hinge: tuple[str, ...] | None
     line: tuple[str, ...] | None
     rod: tuple[str, ...] | None
+    second: tuple[str, ...] | Absent = ABSENT
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,14 @@ class ProvedReason:
     second: tuple[str, ...]
     constant: tuple[tuple[str, ...], ...]
     third: tuple[str, ...] | Absent = ABSENT
+
+
+@dataclass(frozen=True)
+class ProvedAxis:
+    """A loop equation of an axis that links of `joint` share: the axis in one less that in the other, `along` this."""
+
+    joint: str
+    along: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -132,7 +142,7 @@ class DerivationProof:
     """What `assur verify` checks of a derivation.
 
     `named` are formulas of what is given, in order; `vectors` are components of lengths along directions that turn;
-    `units` are squares that are 1; `loops` vanish.
+    `units` are squares that are 1; `loops` vanish, of which `axes` are those of axes that links share.
     """
 
     named: Mapping[str, str]
@@ -142,6 +152,7 @@ class DerivationProof:
     vectors: Mapping[str, str]
     units: Mapping[str, str]
     loops: Mapping[str, str]
+    axes: Mapping[str, ProvedAxis]
     sets: tuple[ProvedSet, ...]
     lengths: Mapping[str, Multiples]
 

@@ -22,8 +22,8 @@ from assur.verifier.vectors import Matrix, Vector, apply, product, subtract, tra
 
 TRIES = 200
 """Places that are drawn until every radicand has a root there."""
-FEW = 20
-"""Of them modulo one prime."""
+FEW = 4
+"""Of them modulo one prime: modulo most of them some root of a number may be no residue, at any place."""
 MOST = 64
 """Branches that are looked at, of more the first."""
 
@@ -171,7 +171,8 @@ class _DrawnBranches:
         a, b, c = (self._vector(row, values) for row in own["constant"])
         constant: Matrix = (a, b, c)
         circle, rod = (None if own[key] is None else tuple(own[key]) for key in ("circle", "rod"))
-        return ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod)
+        second = tuple(own["second"]) if "second" in own else None
+        return ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second)
 
     def _vector(self, parts: Sequence[str], values: Mapping[str, Any]) -> Vector:
         x, y, z = (self._value(part, values) for part in parts)

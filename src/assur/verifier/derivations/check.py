@@ -24,6 +24,7 @@ from assur.verifier.derivations.turning import ClaimedTurn
 from assur.verifier.formula import AngleSum
 from assur.verifier.mechanism import FileMechanism, mechanism
 from assur.verifier.reading import MalformedError, RefusedError, printable
+from assur.verifier.vectors import apply, dot, subtract, transposed
 
 FORMAT, VERSION = "assur derivation", 1
 
@@ -166,7 +167,7 @@ class _ProblemCheck(KnownFormulas):
 
     def _unknowns(self, turns: Mapping[str, ClaimedTurn]) -> None:
         """Unknowns of orientations with their squares, lengths that are sought, and components of vectors of these."""
-        circles = {own.circle for own in turns.values() if own.circle}
+        circles = {group for own in turns.values() for group in (own.circle, own.second) if group}
         self.turning = circles
         own_ones = [*circles, *{own.rod for own in turns.values() if own.rod}]
         sliding = dict(self.proof["sliding"])
@@ -202,11 +203,30 @@ class _ProblemCheck(KnownFormulas):
         gaps, self.platform = self.assembly.loops(turns, self.known, self.sliding)
         rows = [own for own in gaps if not self.zero(own)]
         self.loops = {name: term(self.read(text)) for name, text in self.proof["loops"].items()}
-        if len(rows) != len(self.loops):
-            raise RefusedError(f"{len(self.loops)} loop equations, and the mechanism file has {len(rows)}")
-        for row, (name, own) in zip(rows, self.loops.items(), strict=True):
+        axes = self.proof["axes"]
+        for name, claim in axes.items():
+            if not self._shared(self.loops[name], claim, turns):
+                raise RefusedError(f"{name} is not that of an axis which links of {claim['joint']} share")
+        loops = {name: own for name, own in self.loops.items() if name not in axes}
+        if len(rows) != len(loops):
+            raise RefusedError(f"{len(loops)} loop equations, and the mechanism file has {len(rows)}")
+        for row, (name, own) in zip(rows, loops.items(), strict=True):
             if not self.zero(row - own):
                 raise RefusedError(f"{name} is not the mechanism's: another mechanism or version")
+
+    def _shared(self, row: Term, claim: Mapping[str, Any], turns: Mapping[str, ClaimedTurn]) -> bool:
+        """Whether an equation vanishes since an axis of a joint is one in both of its links, either of them first."""
+        x, y, z = map(self.checked, claim["along"])
+        for hop in self.assembly.hops:
+            if hop.axis is None or hop.joint != claim["joint"] or not {hop.start, hop.end} <= turns.keys():
+                continue
+            inside = apply(transposed(hop.after), hop.axis)
+            ends = ((hop.start, hop.axis), (hop.end, inside))
+            first, second = (turns[link].image(axis, self.known, self.zero) for link, axis in ends)
+            gap = term(dot((x, y, z), subtract(first, second)))
+            if self.zero(row - gap) or self.zero(row + gap):
+                return True
+        return False
 
     # sets
 

@@ -63,7 +63,9 @@ class OrientationCheck:
                 None if own[key] is None else self._vector(own[key]) for key in ("axis", "hinge", "line")
             )
             circle, rod = (None if own[key] is None else tuple(map(str, own[key])) for key in ("circle", "rod"))
-            turn = ClaimedTurn(own["link"], own["kind"], self._matrix(own["constant"]), axis, circle, hinge, line, rod)
+            second = tuple(map(str, own["second"])) if "second" in own else None
+            constant = self._matrix(own["constant"])
+            turn = ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second)
             turns[turn.link] = turn
         fixed = self._reached(self.mechanism.base, None)
         for turn in turns.values():
@@ -71,6 +73,8 @@ class OrientationCheck:
                 fine = turn.link in fixed and same(fixed[turn.link], turn.constant, self.zero)
             elif turn.kind == "circle" and turn.axis is not None:
                 fine = self._on_circle(turn, turn.axis, turns)
+            elif turn.kind == "carried":
+                fine = self._carried(turn, turns)
             else:
                 fine = turn.kind == "rod" and turn.rod is not None and self._on_rod(turn, turns)
             if not fine:
@@ -124,6 +128,38 @@ class OrientationCheck:
         between = self._reached(leader.link, None).get(turn.link)
         alike = leader.axis is not None and all(map(self.zero, subtract(axis, leader.axis)))
         return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+
+    def _carried(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
+        """A link on a hinge of one that turns by the same circle: Rot(axis, psi) Rot(hinge, phi) constant."""
+        hinge = turn.hinge
+        if turn.second is None or hinge is None or not self.zero(plus(dot(hinge, hinge), -1)):
+            return False
+        leader = next(own for own in turns.values() if own.second == turn.second)
+        if leader is not turn:
+            same_ones = leader.axis, leader.circle, leader.hinge
+            between = self._reached(leader.link, None).get(turn.link)
+            alike = between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+            return alike and same_ones == (turn.axis, turn.circle, hinge)
+        return any(self._hung(hop, turn, hinge, turns) for hop in self.assembly.hops)
+
+    def _hung(self, hop: Hop, turn: ClaimedTurn, hinge: Vector, turns: Mapping[str, ClaimedTurn]) -> bool:
+        """Whether a hop is that hinge, seen from what carries it."""
+        inside = self._reached(turn.link, None)
+        for start, end, forward in ((hop.start, hop.end, True), (hop.end, hop.start, False)):
+            carrier = turns.get(start)
+            if hop.axis is None or end not in inside or carrier is None or carrier.kind != "circle":
+                continue
+            if carrier.circle != turn.circle or carrier.axis is None or turn.axis is None:
+                continue
+            after = hop.after if forward else transposed(hop.after)
+            along = hop.axis if forward else apply(transposed(hop.after), hop.axis)
+            turned = product(
+                turn.constant, transposed(product(product(carrier.constant, after), transposed(inside[end])))
+            )
+            gaps = *subtract(carrier.axis, turn.axis), *cross(apply(carrier.constant, along), hinge)
+            if all(map(self.zero, gaps)) and is_rotation(turned, self.zero) and fixes(turned, hinge, self.zero):
+                return True
+        return False
 
     def _on_rod(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
         """A link between balls, with what slides on it, or one on a hinge across the axis of its carrier.

@@ -42,6 +42,7 @@ class Hop:
     end: str
     after: Matrix
     axis: Vector | None = None
+    joint: str = ""
 
 
 def hops(graph: Graph, locked: Mapping[str, Circle]) -> Iterator[Hop]:
@@ -66,7 +67,7 @@ def hops(graph: Graph, locked: Mapping[str, Circle]) -> Iterator[Hop]:
                 continue
             axis, given = own.axes[direction], locked.get(f"{name} {place}")
             if given is None:
-                yield Hop(links[k], links[k + 1], after, axis)
+                yield Hop(links[k], links[k + 1], after, axis, name)
             else:
                 yield Hop(links[k], links[k + 1], product(about(axis, *given), after))
     for group in mechanism.parallelograms:
@@ -161,6 +162,7 @@ class ClaimedTurn:
     hinge: Vector | None
     line: Vector | None
     rod: tuple[str, ...] | None
+    second: tuple[str, ...] | None = None
 
     def image(self, vector: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
         """A vector of the link, in the base. Errors: RefusedError, of one that a rod does not have."""
@@ -176,6 +178,9 @@ class ClaimedTurn:
         return along if zero(beside) else _add(along, _scaled(self._turned(hinge, values, zero), beside))
 
     def _turned(self, own: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
+        if self.kind == "carried" and self.hinge is not None:
+            cosine, sine = (values[name] for name in self.second or ())
+            own = apply(about(self.hinge, cosine, sine), own)
         if self.axis is None or all(map(zero, cross(self.axis, own))):
             return own
         if self.circle is None:
@@ -187,10 +192,14 @@ class ClaimedTurn:
         """The orientation, where it is said."""
         if self.kind == "fixed" or self.axis is None:
             return self.constant if self.kind == "fixed" else None
-        if self.kind != "circle" or self.circle is None:
+        if self.kind not in ("circle", "carried") or self.circle is None:
             return None
         cosine, sine = (values[name] for name in self.circle)
-        return product(about(self.axis, cosine, sine), self.constant)
+        turn = about(self.axis, cosine, sine)
+        if self.kind == "carried" and self.hinge is not None:
+            cosine, sine = (values[name] for name in self.second or ())
+            turn = product(turn, about(self.hinge, cosine, sine))
+        return product(turn, self.constant)
 
 
 def _add(a: Vector, b: Vector) -> Vector:
