@@ -156,6 +156,11 @@ class ScrewColumns:
         return frames(self.record, self.values)
 
     @cached_property
+    def widths(self) -> dict[tuple[str, tuple[int, ...]], int]:
+        """Link, columns -> dimension of the space that these span seen from there, of those that were asked for."""
+        return {}
+
+    @cached_property
     def _seen(self) -> dict[str, FloatArray]:
         return {}
 

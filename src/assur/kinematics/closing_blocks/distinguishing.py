@@ -103,7 +103,7 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     last = [problem == "direct" and bool(moving & {*chosen}) for chosen in joined]
     order = [*_separating(columns, [answer.solution for answer in answers], last)]
     near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
-    merging = differing_at_folds(ordered, problem, signs, near)
+    merging = differing_at_folds(ordered, problem, signs, near, order)
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
     return tuple(

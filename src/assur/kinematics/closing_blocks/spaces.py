@@ -53,8 +53,11 @@ def in_narrow_loops(block: ClosingBlock, screws: ScrewColumns) -> ClosingBlock:
 
 def _width(block: ClosingBlock, number: int, link: str, screws: ScrewColumns) -> int:
     """Dimension of the space that the screws of a loop span, seen from a link."""
-    own = [k for k, owner in zip(block.columns, block.owners, strict=True) if owner in block.loops[number]]
-    return int(span(screws.seen_from(link)[:, :, own]).shape[1])
+    loop = block.loops[number]
+    own = tuple(k for k, owner in zip(block.columns, block.owners, strict=True) if owner in loop)
+    if (link, own) not in screws.widths:
+        screws.widths[link, own] = int(span(screws.seen_from(link)[:, :, list(own)]).shape[1])
+    return screws.widths[link, own]
 
 
 def steadiest_link(block: ClosingBlock, number: int, screws: ScrewColumns) -> str:
