@@ -168,11 +168,17 @@ def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
     its ball joints does not make another one.
     """
     where = places(record, joints)
-    kept: list[int] = []
+    if not len(where):
+        return np.zeros(0, dtype=np.intp)
+    widest = where[:, np.argmax(np.ptp(where, axis=0))]  # tells most of them apart alone
+    kept, count = np.zeros(len(where), dtype=np.intp), 0
     for k, place in enumerate(where):
-        if not kept or np.min(np.max(np.abs(where[kept] - place), axis=-1)) > SAME:
-            kept.append(k)
-    return np.array(kept, dtype=np.intp)
+        first = kept[:count]
+        near = where[first[~(np.abs(widest[first] - widest[k]) > SAME)]]
+        if not len(near) or np.min(np.max(np.abs(near - place), axis=-1)) > SAME:
+            kept[count] = k
+            count += 1
+    return kept[:count]
 
 
 def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
