@@ -175,7 +175,7 @@ def _distinct(places: ComplexArray) -> list[int]:
     kept: list[int] = []
     for k, own in enumerate(places):
         size = 1.0 + np.max(np.abs(own), initial=0.0)
-        if all(np.max(np.abs(own - places[j])) > SAME * size for j in kept):
+        if np.all(np.max(np.abs(own - places[kept]), axis=-1, initial=0.0) > SAME * size):
             kept.append(k)
     return kept
 
