@@ -171,7 +171,7 @@ def test_random_chains_become_a_sound_file_or_a_clear_refusal(texts):
     check_or_refuse(lambda: parse_chains(texts))
 
 
-@examples(15)
+@examples(8)
 @given(LIMBS, st.integers(2, 3))
 def test_random_limbs_become_a_sound_file_or_a_clear_refusal(text, count):
     check_or_refuse(lambda: repeated(text, count))
