@@ -64,20 +64,34 @@ def _replaced(name):
 
 
 @pytest.fixture
-def poses(mechanism):
+def poses(request, mechanism):
     """Poses (60, m) from the mechanism's workspace box."""
-    low, high = np.array([mechanism.box[name] for name in mechanism.platform.pose]).T
-    return border.checked_poses(mechanism, np.random.default_rng(1).uniform(low, high, size=(60, len(low))))
+    return _poses(request.node.callspec.params["mechanism"])
+
+
+@lru_cache
+def _poses(name):
+    mechanism = _loaded(name)
+    low, high = np.array([mechanism.box[coordinate] for coordinate in mechanism.platform.pose]).T
+    drawn = border.checked_poses(mechanism, np.random.default_rng(1).uniform(low, high, size=(60, len(low))))
+    drawn.setflags(write=False)
+    return drawn
 
 
 @pytest.fixture
-def regular(mechanism, poses):
+def regular(request, mechanism):
     """Regular solutions over all working modes: (pose, mode text, inputs, joint values)."""
+    return _regular(request.node.callspec.params["mechanism"])
+
+
+@lru_cache
+def _regular(name):
+    mechanism, poses = _loaded(name), _poses(name)
     found = mechanism.inverse(poses)
     rows, branches = np.nonzero(found.exists & (found.status == Status.regular))
     assert len(rows) > 20, "the box of the file holds too few regular poses"
     modes = [all_modes(mechanism, "inverse")[k] for k in branches]
-    return list(zip(poses[rows], modes, found.inputs[rows, branches], found.joints[rows, branches], strict=True))
+    return tuple(zip(poses[rows], modes, found.inputs[rows, branches], found.joints[rows, branches], strict=True))
 
 
 @pytest.fixture
