@@ -31,7 +31,7 @@ from assur.kinematics.closing_blocks.blocks import (
     loop_blocks,
     spin_rates,
 )
-from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
+from assur.kinematics.closing_blocks.columns import FEW, ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.spaces import in_narrow_loops, span, steadiest_link
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
@@ -312,9 +312,13 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
         return None
     for spins in combinations(block.spins, spinning):
         trial = BlockSign(replace(block, spins=spins), links, rates, basis, 1.0)
-        values = trial.shares(screws)
+        matrices = trial.matrices(screws)
+        values = np.linalg.det(matrices)
         size = float(np.max(np.abs(values)))
-        if np.max(np.linalg.matrix_rank(trial.matrices(screws), tol=SMALL)) == rates.shape[1]:
+        if any(  # in a few of them mostly: the others are seldom asked
+            np.max(np.linalg.matrix_rank(own, tol=SMALL), initial=0) == rates.shape[1]
+            for own in (matrices[:FEW], matrices[FEW:])
+        ):
             return replace(trial, size=-size if values[0] < -MERGED * size else size)
     return None
 
