@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.derivation.kept import derived_closed_form
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.reasons import left_out
 from assur.derivation.solution import analytic_solution
+from assur.derivation.velocities import velocity_equations
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import home_values
@@ -15,16 +17,30 @@ from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
+from assur.topology.notation import parse_chains
 from derived_points import derived_inputs, derived_points, inputs_near_home
 
 OBLIQUE = {"tsai": "R[y] R[y] P(4R)[x] R[y]", "3-PRPaR": "P[z] R[y] P(4R)[x] R[y]"}
 SLIDING = {"3-RRP": "R[z] R[z] P[x]", "3-PRP": "P[y] R[z] P[x]"}
+LOOPED = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
+UNLIKE = {
+    "a limb with a loop in it": [LOOPED, "R[z] R[z] C[z]"],
+    "a limb with a loop in it, last": ["R[z] R[z] C[z]", LOOPED],
+    "five-bar with a slider in a limb": ["R[z] R[z]", "R[z] P[x] R[z]"],
+    "five-bar with a driven slider": ["P[x] R[z]", "P[y] R[z] R[z]"],
+    "a sign that is a product of roots": ["C[x] R[x] R[x]", "R[y] R[y] C[y]", "P[z] R[z] R[z] R[z]"],
+    "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
+}
 APART = 1e-6
 
 
 def draft(limb, folder):
+    return draft_of(repeated(limb, 3), folder)
+
+
+def draft_of(chains, folder):
     path = folder / "draft.toml"
-    path.write_text(drafted(repeated(limb, 3), path).text, encoding="utf-8")
+    path.write_text(drafted(chains, path).text, encoding="utf-8")
     return load_record(path)
 
 
@@ -101,3 +117,20 @@ def test_sliders_oblique_to_the_axis_about_which_they_turn_are_as_long_as_those_
 def test_sliders_oblique_to_their_axes_are_no_wrong_direct_solution(tmp_path):
     with pytest.raises(NotDerivedError, match="slides oblique to the axis"):
         analytic_solution(draft("C[1,0,1] P[z] R[1,0,1]", tmp_path), "direct")
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("chains", UNLIKE.values(), ids=[*UNLIKE])
+def test_limbs_that_are_unlike_have_a_closed_form_with_velocities_that_the_joint_graph_confirms(chains, tmp_path):
+    record = draft_of(parse_chains(chains), tmp_path)
+    assert "parallel" in derived_closed_form(record)  # which is held against the joint graph
+    equations = velocity_equations(analytic_solution(record, "inverse"))
+    assert equations.jp.shape == equations.jq.shape == (len(record.inputs),) * 2
+
+
+@pytest.mark.deep
+def test_the_height_of_rods_that_are_equally_high_is_a_factor_of_its_own(tmp_path):
+    """On level rails det Jp is zero where the rods are level, and where their ends are collinear seen from above."""
+    equations = velocity_equations(analytic_solution(draft("P[x] P(4S)[y]", tmp_path), "inverse"))
+    varying = [factor for factor, _ in equations.parallel if factor.free_symbols]
+    assert [len(factor.free_symbols) for factor in varying] == [1, 6]

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations
 
 import sympy
 
-from assur.derivation.linear import Form, combined, divided, form_of, replaced, solved, sparse, tidy
+from assur.derivation.linear import ONE, Form, combined, divided, form_of, replaced, solved, sparse, tidy
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.quotients import primitive
@@ -129,15 +129,29 @@ class _Velocities:
 
     def _alike(self, row: Form) -> Form:
         """A row in which of unknowns that are multiples of each other, by dimensions alone, one is left."""
+        return {key: part.subs(self._multiples) for key, part in row.items()}
+
+    @cached_property
+    def _multiples(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Unknown -> a multiple of another, by dimensions alone; of what the pose says alone the first is kept."""
         alike: dict[sympy.Symbol, sympy.Expr] = {}
+        posed: dict[sympy.Symbol, sympy.Expr] = {}
         parameters = {*self.symbols.parameters.values()}
         for form in sparse(self.solution.loops.forms, self.witness):
-            if len(form) == 2 and all(isinstance(key, sympy.Symbol) for key in form):
-                (first, a), (second, b) = form.items()
-                ratio = tidy(-b / a)
+            unknowns = [key for key in form if isinstance(key, sympy.Symbol)]
+            if len(form) != 2 or not unknowns:
+                continue
+            (first, a), others = (unknowns[0], form[unknowns[0]]), unknowns[1:]
+            if others:
+                known = {others[0]: tidy(-form[others[0]] / a)}
+            else:
+                posed[first] = tidy(-form[ONE] / a)
+                known = {other: tidy(posed[first] / value) for other, value in posed.items() if other != first}
+            for second, ratio in known.items():
                 if not ratio.free_symbols - parameters:
                     alike[first] = ratio * second
-        return {key: part.subs(alike) for key, part in row.items()}
+                    break
+        return alike
 
     def _driven(self) -> Iterator[UnknownDirection]:
         """Circles of links that inputs turn."""

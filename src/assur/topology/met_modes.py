@@ -17,6 +17,7 @@ from assur.topology.answers import written_poc
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import solution_plan
+from assur.topology.poc import motion_name
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.mode_kinds import ModeKind, kind_around, kinds_met
 from assur.topology.screws.modes import operation_modes
@@ -71,21 +72,10 @@ def _of_home(linkage: Linkage) -> dict[ModeKind, FloatArray]:
 
 def _names(kinds: Sequence[ModeKind]) -> list[str]:
     """Independent translations and rotations, and a letter where several kinds have the same."""
-    plain = [_motion(kind) for kind in kinds]
+    plain = [motion_name(kind.dim, kind.r) for kind in kinds]
     several = {name for name, times in Counter(plain).items() if times > 1}
     letters = {name: iter(ascii_lowercase) for name in several}
     return [f"{name}{next(letters[name])}" if name in several else name for name in plain]
-
-
-def _motion(kind: ModeKind) -> str:
-    """The independent elements of a POC set, as 3T1R; a platform that stands still is 0.
-
-    >>> _motion(ModeKind(3, 2, 3, 3, 12, (3, 2), (3, 2)))
-    '1T2R'
-    """
-    translations = kind.dim - kind.r
-    parts = ((translations, "T"), (kind.r, "R"))
-    return "".join(f"{number}{letter}" for number, letter in parts if number) or "0"
 
 
 def _mode(linkage: Linkage, kind: ModeKind, values: FloatArray, name: str, *, at_home: bool) -> MetMode:

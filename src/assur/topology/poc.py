@@ -69,6 +69,16 @@ class PocSet:
         return f"{t} {r}"
 
 
+def motion_name(dim: int, rotations: int) -> str:
+    """Independent translations and rotations as titles have them; what stands still is 0.
+
+    >>> motion_name(4, 1)
+    '3T1R'
+    """
+    parts = ((dim - rotations, "T"), (rotations, "R"))
+    return "".join(f"{number}{letter}" for number, letter in parts if number) or "0"
+
+
 _SUPERSCRIPT = "⁰¹²³"
 _SIGNS = {
     "unicode": {"parallel": "∥", "perpendicular": "⊥", "plane": "∥◇", "rho": "ρ"},

@@ -78,6 +78,12 @@ FALSE_MARGINS = {
          ('"height1": height1,', '"height1": height1 * extra, "extra": extra, "wall": extra,'),
          (DECLARED[0], DECLARED[1].format(', signs=("s1",)')
           + 'Margin("wall", "1", "more", unit=0, zero="degenerate"),')), "margin extra"),
+    "a root parted into a product of two": (
+        "biglide",
+        ((ARM, f"extra = 1 - {BUMP('x', 'x')}\n    arm1 = sign.s1 * ns.sqrt(height1 / extra) * ns.sqrt(extra)"),
+         ('"height1": height1,', '"height1": height1 / extra, "extra": extra, "wall": extra,'),
+         (DECLARED[0], DECLARED[1].format(', signs=("s1",)')
+          + 'Margin("wall", "1", "more", unit=0, zero="degenerate"),')), "margin extra"),
 }  # fmt: skip
 
 

@@ -191,10 +191,16 @@ def check_or_refuse(chains):
     assert facts(assur.topology(record)) == facts(found.topology)
 
 
-def test_the_title_has_the_limbs_as_they_stand():
-    """Limbs that are turns of one another have other axes, and a template shows the first one's alone."""
-    chains = ["H[x] R[x] R[x] R[x]", "H[y] R[y] R[y] R[y]", "H[z] R[z] R[z] R[z]"]
-    title = "Draft of 1 x H[x] R[x] R[x] R[x], 1 x H[y] R[y] R[y] R[y], 1 x H[z] R[z] R[z] R[z]"
+@pytest.mark.parametrize(
+    ("chains", "title"),
+    [
+        (["H[x] R[x] R[x] R[x]", "H[y] R[y] R[y] R[y]", "H[z] R[z] R[z] R[z]"], "3-HRRR mechanism, 3T"),
+        pytest.param(
+            ["R[z] R[z] R[z]", "R[z] R[z] R[z]", "P[x] R[z]"], "2RRR-PR mechanism, 1T1R", marks=pytest.mark.deep
+        ),
+    ],
+)
+def test_the_title_has_the_limbs_by_letters_and_the_motion(chains, title):
     assert f'title  = "{title}"' in drafted(parse_chains(chains), PATH).text
 
 

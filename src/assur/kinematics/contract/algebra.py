@@ -16,6 +16,7 @@ What is a multiple is known exactly (`assur.kinematics.contract.identities`).
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cached_property
 from typing import Literal
 
@@ -26,6 +27,9 @@ from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Margin
 
 Least = Literal["positive", "zero or more", "anything"]
+
+ONCE = 2
+"""The power 1, as `Powers` has it."""
 
 SIGNS: dict[str, Least] = {"positive": "positive", "nonnegative": "zero or more", "any": "anything"}
 
@@ -135,7 +139,7 @@ class Algebra:
             return bool(self.identities.product(k, self._vanishing))
         signs = [name for name in claimed.signs if name in self._asked]
         if signs:
-            return all(self._is_square(k, self.kernel.outputs["sign"].get(name, ())) for name in signs)
+            return all(self._is_square(k, name) for name in signs)
         return bool(claimed.signs) and self._is_radicand(k)
 
     def _is_radicand(self, k: int) -> bool:
@@ -152,16 +156,38 @@ class Algebra:
             return curve.signs if curve else ()
         return sign_names(self.kernel.record, self.kernel.question)
 
-    def _is_square(self, k: int, quantity: tuple[int, ...]) -> bool:
-        """Whether a margin is a positive multiple of the square of what its sign is the sign of."""
-        for own in quantity:
+    def _is_square(self, k: int, sign: str) -> bool:
+        """Whether a margin is a positive multiple of the square of what its sign is the sign of.
 
-            def accepted(powers: Powers, own: int = own) -> bool:
-                return own in powers and not self._odd(powers)
+        Of a product of roots that square has all their radicands as factors: those of the other margins are divided
+        out. All but one of these are the squares of signs of their own, so that no root is parted into two.
+        """
+        alike = {j for item in self._merging_by(sign) for j in self.margin(item)} | {k}
+        quantity = self.kernel.outputs["sign"].get(sign, ())
+        if quantity and all(self._is_square_of(own, k) for own in quantity):
+            return True
+        if len(alike) == 1 or sum(not self._has_own_sign(j, sign) for j in alike) > 1:
+            return False
+        return bool(quantity) and all(self._is_square_of(own, k, alike - {k}) for own in quantity)
 
-            if not self.identities.positive_product(k, [own, *self._units], accepted):
-                return False
-        return bool(quantity)
+    def _merging_by(self, sign: str) -> list[Margin]:
+        """Margins at whose zero a sign changes."""
+        return [item for item in self.kernel.margins if item.zero == "merge" and sign in item.signs]
+
+    def _has_own_sign(self, k: int, beside: str) -> bool:
+        """Whether a margin is a positive multiple of the square of what another of its signs is the sign of."""
+        signs = {name for item in self.kernel.margins if k in self.margin(item) for name in item.signs} - {beside}
+        own = [self.kernel.outputs["sign"].get(name, ()) for name in signs if name in self._asked]
+        return any(places and all(self._is_square_of(j, k) for j in places) for places in own)
+
+    def _is_square_of(self, own: int, k: int, beside: Collection[int] = ()) -> bool:
+        """Whether an entry is a positive multiple of the square of another one, over each of those beside."""
+
+        def accepted(powers: Powers) -> bool:
+            over = {j for j in beside if powers.get(j) == -ONCE}
+            return own in powers and (not beside or powers[own] == 2 * ONCE) and self._odd(powers) <= over
+
+        return bool(self.identities.positive_product(k, [own, *(sorted(beside) or self._units)], accepted))
 
     @cached_property
     def _units(self) -> list[int]:

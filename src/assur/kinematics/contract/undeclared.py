@@ -33,7 +33,8 @@ RADICAND = "a radicand must be a margin, or a positive multiple of one, or never
 DIVISOR = "a divisor must be a margin that degenerates, or a factor, or never zero by the way it is made"
 ALLOWED = {
     "degenerate": "a margin that degenerates must be a multiple of powers of divisors and factors, exactly",
-    "signed": "a margin of a sign must be a positive multiple of the square of what its sign is the sign of, exactly",
+    "signed": "a margin of a sign must be a positive multiple of the square of what its sign is the sign of, exactly, "
+    "with other margins of that sign divided out",
     "unsigned": "a margin without signs leaves assemblies out: only a form that is complete for a reduced model may",
 }
 ALIKE = 0.1

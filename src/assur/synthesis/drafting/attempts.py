@@ -34,6 +34,7 @@ from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.facts import Topology
 from assur.topology.notation import plain_text
+from assur.topology.poc import motion_name
 from assur.work import stage
 
 BY_LENGTHS = (
@@ -112,6 +113,7 @@ class DraftQuestion:
                 box=_box(pose, drawn),
                 header=self._header(moved=moved),
                 home=home_table(record, values) if moved else {},
+                motion=motion_name(self.topology.poc.dim, self.topology.poc.r),
             )
             chosen = self._with_modes(drawn, chosen)
             record = self._read(drawn, chosen)

@@ -35,6 +35,7 @@ class Chosen:
         box: coordinate -> low and high, as the file writes them.
         working: name -> formula, positive at home.
         home: joint -> values in the file's units where home is not as drawn.
+        motion: of the platform, in a word: 2T1R.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Chosen:
     box: Mapping[str, tuple[str, str]]
     working: Mapping[str, str]
     home: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    motion: str = ""
 
 
 def document(draft: Draft, chosen: Chosen) -> str:
@@ -79,7 +81,7 @@ def _head(draft: Draft, chosen: Chosen) -> list[str]:
         "",
         "format = 1",
         f'name   = "{chosen.name}"',
-        f'title  = "{_title(draft)}"',
+        f'title  = "{_title(draft, chosen.motion)}"',
         'unit   = "mm"',
         'angle  = "deg"',
         "",
@@ -92,18 +94,18 @@ def _head(draft: Draft, chosen: Chosen) -> list[str]:
     ]
 
 
-def _title(draft: Draft) -> str:
-    """The limbs as they stand: what a template turns about z has other axes there."""
-    chains = Counter(_DECIMALS.sub(_four_places, chain) for chain in draft.chains)
-    return f"Draft of {', '.join(f'{number} x {text}' for text, number in chains.items())}"
+def _title(draft: Draft, motion: str) -> str:
+    """The limbs as titles of papers have them, by letters; the axes stand in the comments above."""
+    limbs = Counter(_AXES.sub("", chain) for chain in draft.chains)
+    if len(limbs) == 1:
+        names = [f"{number}-{letters}" if number > 1 else letters for letters, number in limbs.items()]
+    else:
+        names = [f"{number if number > 1 else ''}{letters}" for letters, number in limbs.items()]
+    return f"{'-'.join(names)} mechanism, {motion}"
 
 
-_DECIMALS = re.compile(r"-?\d+\.\d+(e-?\d+)?")
-
-
-def _four_places(number: re.Match[str]) -> str:
-    """A part of an axis as a title says it; the joints of the file have it in full."""
-    return f"{round(float(number.group()), 4) + 0.0:g}"
+_AXES = re.compile(r"\[[^\]]*\]|@\w+|\s")
+"""What a chain says of its axes, and spaces."""
 
 
 def _parameters(draft: Draft) -> list[str]:
