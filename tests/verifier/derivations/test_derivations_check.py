@@ -62,7 +62,7 @@ def test_the_condition_of_the_seed_is_the_one_under_which_it_is_complete(derived
     assert proved.conditions == ("H1 != 0", "N3 != 0")
 
 
-LEGS = ("S P S", "R[y] S S")
+LEGS = ("S P S", "R[y] S S", "R[y] U[x,z] S")
 """Of platforms on six of them, whose pose has a quaternion."""
 
 
@@ -88,9 +88,15 @@ def a_name_of_what_is_given(problem):
     problem["proof"]["named"]["qw"] = "1"
 
 
-def a_rod_on_no_hinge(problem):
+def a_rod_along_its_hinge(problem):
     (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "tube1")
-    own["hinge"] = None
+    own["line"] = own["hinge"]
+
+
+def a_rod_along_an_axis_of_its_universal_joint(problem):
+    """Without a hinge it is one that a universal joint holds."""
+    (own,) = (own for own in problem["proof"]["orientations"] if own["link"] == "tube1")
+    own["line"], own["hinge"] = own["hinge"], None
 
 
 def a_vector_that_is_another(problem):
@@ -98,8 +104,8 @@ def a_vector_that_is_another(problem):
     problem["proof"]["vectors"][name] = f"-({text})"
 
 
-IN_SPACE = (another_rotation, another_formula_of_a_name, a_name_of_what_is_given, a_rod_on_no_hinge,
-            a_vector_that_is_another)  # fmt: skip
+IN_SPACE = (another_rotation, another_formula_of_a_name, a_name_of_what_is_given, a_rod_along_its_hinge,
+            a_rod_along_an_axis_of_its_universal_joint, a_vector_that_is_another)  # fmt: skip
 
 
 @pytest.mark.deep

@@ -175,7 +175,7 @@ class OrientationCheck:
         )
         axis = turn.axis
         if hinge is None and (leader is turn or parallel):
-            return self._between_balls(turn.link) and same(turn.constant, ONE, self.zero)
+            return self._between_balls(turn.link, line) and same(turn.constant, ONE, self.zero)
         if hinge is None:
             return self._with_leader(turn, leader)
         if axis is None or not self.zero(dot(hinge, axis)) or all(map(self.zero, cross(hinge, line))):
@@ -192,12 +192,27 @@ class OrientationCheck:
         )
         return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
 
-    def _between_balls(self, link: str) -> bool:
-        """Whether ball joints alone hold a link and what does not turn against it; the base does."""
+    def _between_balls(self, link: str, line: Vector) -> bool:
+        """Whether ball joints alone hold a link and what does not turn against it, and at most one universal joint.
+
+        That lets the line point anywhere too, if its axes are perpendicular, and the link's to the line.
+        """
         inside = self._reached(link, None)
-        joints = self.mechanism.joints.values()
-        leaving = [own.type for own in joints if (own.parent in inside) != (own.child in inside)]
-        return self.mechanism.base not in inside and {*leaving} == {"spherical"}
+        joints = self.mechanism.joints.items()
+        leaving = {name: own.type for name, own in joints if (own.parent in inside) != (own.child in inside)}
+        crosses = [name for name, kind in leaving.items() if kind == "universal"]
+        balls = len(crosses) < len(leaving) and {*leaving.values()} <= {"spherical", "universal"}
+        fine = self.mechanism.base not in inside and balls and len(crosses) < 2
+        return fine and all(self._across_universal(name, inside, line) for name in crosses)
+
+    def _across_universal(self, name: str, inside: Mapping[str, Matrix], line: Vector) -> bool:
+        first, second = (own for own in self.assembly.hops if own.joint == name)
+        if first.axis is None or second.axis is None:
+            return False
+        near, axis = (second.end, apply(transposed(second.after), second.axis))
+        if near not in inside:
+            near, axis = first.start, first.axis
+        return self.zero(dot(first.axis, second.axis)) and self.zero(dot(apply(inside[near], axis), line))
 
     def _carries(self, hop: Hop, turn: ClaimedTurn, axis: Vector, hinge: Vector) -> bool:
         """Whether a hop is the hinge of a rod: Rot(axis, psi) Rot(hinge, phi) constant is its orientation."""
