@@ -134,3 +134,8 @@ def test_the_height_of_rods_that_are_equally_high_is_a_factor_of_its_own(tmp_pat
     equations = velocity_equations(analytic_solution(draft("P[x] P(4S)[y]", tmp_path), "inverse"))
     varying = [factor for factor, _ in equations.parallel if factor.free_symbols]
     assert [len(factor.free_symbols) for factor in varying] == [1, 6]
+
+
+@pytest.mark.deep
+def test_a_closed_form_says_where_rods_oblique_to_their_hinges_end_branches(tmp_path):
+    assert '"room_leg1_rodC1"' in derived_closed_form(draft(OBLIQUE["3-PRPaR"], tmp_path))

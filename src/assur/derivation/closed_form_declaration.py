@@ -89,6 +89,8 @@ class ClosedFormDeclaration(ClosedFormParts):
             kind = 'zero="degenerate"'
             if value in roots:
                 kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"
+            elif value in self.formulas.joints.leaning:
+                kind = "signs=()"
             yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, {kind})'
 
     def _quantity_list(self) -> Iterator[str]:

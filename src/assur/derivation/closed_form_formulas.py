@@ -176,6 +176,8 @@ class ClosedFormFormulas:
                 yield root.radicand.name, root.radicand
         for tilt in self.joints.tilts:
             yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
+        for room, own in self.joints.leaning.items():
+            yield f"room_{own.name}", room
 
     def _divides(self, solution: AnalyticSolution, part: SolvedSet, condition: sympy.Expr) -> bool:
         """Whether a condition is of more than dimensions, and of a polynomial's unknowns one that is divided by."""
@@ -198,7 +200,8 @@ class ClosedFormFormulas:
         divisors = [own for name, own in self.margins("direct") if own not in {*squares}]
         radicands = {root.radicand for root in self.direct.roots}
         tilted = {1 + dot(tilt.line, tilt.direction) for tilt in self.joints.tilts}
-        return [own for own in dict.fromkeys(divisors) if own not in radicands | tilted]
+        others = radicands | tilted | self.joints.leaning.keys()
+        return [own for own in dict.fromkeys(divisors) if own not in others]
 
     def of_direct(self, value: sympy.Expr) -> sympy.Expr:
         """A formula of the direct problem in the unknowns of the inverse one."""

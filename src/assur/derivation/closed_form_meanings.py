@@ -56,6 +56,10 @@ class ClosedFormMeanings:
         for part in self.formulas.solution(problem).sets:
             if value in part.conditions:
                 return own.condition(part, value)
+        if (rod := self.formulas.joints.leaning.get(value)) is not None:
+            lines = self.reach["inverse"].lines
+            direction = next(own for own in lines.loops.directions if own.name == rod.name)
+            return phrase("{} points too far along {}", lines.name(direction), NamedDirection(rod.axis))
         return self._upright(next(tilt for tilt in self.formulas.joints.tilts if name.endswith(tilt.name[5:])))
 
     def _upright(self, tilt: Tilt) -> GeometricPhrase:

@@ -31,6 +31,7 @@ class Pointing:
         ahead, beside, along: parts of the direction, as `assur.numerics.legs.pointing` takes them.
         back: whether the hinge's cosine is negative at home, so that everywhere.
         lean, level: sine and cosine of the angle of the rod from the plane across its hinge.
+        axis: about which what carries it turns.
     """
 
     carrier: Pair
@@ -41,6 +42,17 @@ class Pointing:
     back: bool
     lean: sympy.Expr
     level: sympy.Expr
+    axis: Vector
+
+    @property
+    def name(self) -> str:
+        """Of the rod."""
+        return str(self.hinge[0].name.removeprefix("cos_"))
+
+    @property
+    def room(self) -> sympy.Expr:
+        """What is negative where a rod oblique to its hinge points too far along the axis of what carries it."""
+        return self.ahead**2 + self.beside**2 - self.lean**2
 
 
 @dataclass(frozen=True)
@@ -74,6 +86,11 @@ class SolvedJoints:
     values: Mapping[str, Pair | sympy.Expr | BallRotation]
     pointings: tuple[Pointing, ...] = ()
     tilts: tuple[Tilt, ...] = ()
+
+    @property
+    def leaning(self) -> dict[sympy.Expr, Pointing]:
+        """What must not be negative -> the rod oblique to its hinge of which that is said."""
+        return {own.room: own for own in self.pointings if own.lean != 0}
 
 
 def joint_formulas(solution: AnalyticSolution) -> SolvedJoints:
@@ -225,7 +242,7 @@ class _Joints:
             lean = dot(own.line or (0, 0, 0), own.hinge)
             lean = sympy.Integer(0) if witness.is_zero(lean) else sympy.simplify(lean)
             level = sympy.sqrt(sympy.factor_terms(sympy.simplify(1 - lean**2)))
-            pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back, lean, level)
+            pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back, lean, level, own.axis)
         self.pointings += pointings.values()
         return pointings
 
