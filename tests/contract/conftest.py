@@ -32,7 +32,7 @@ STRAIGHT = ("a limb that is straight is no factor of the derived form, whose vel
 CLOSE = ("near a root that is nearly double the derived polynomial loses digits",
          ("test_every_direct_solution_closes_the_whole_joint_graph",))  # fmt: skip
 LACKING = {
-    "fivebar": MOTION, "delta_4s": MOTION, "tsai_platform": MOTION, "three_crr": STRAIGHT, "tripteron": STRAIGHT,
+    "delta_4s": MOTION, "tsai_platform": MOTION, "three_crr": STRAIGHT, "tripteron": STRAIGHT,
     "three_rrc": CLOSE,
 }  # fmt: skip
 """What derived forms do not have so far, and the laws that fail for it."""

@@ -48,7 +48,7 @@ class ClosedFormDeclaration(ClosedFormParts):
             lines += [f"        {text}," for text in self._margin_list(problem)]
             lines.append("    ),")
         lines.append("    factor_list=(")
-        for name, kind, value in self.formulas.factors:
+        for name, kind, value in self.factors:
             unit, scale = self.formulas.unit(value), self.formulas.scale(value)
             meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
             meaning = meaning if len(meaning) <= LONGEST_TEXT else f"{name} vanishes"

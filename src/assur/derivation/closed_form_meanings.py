@@ -26,11 +26,13 @@ class CoincidenceMotion:
         condition: what vanishes.
         part: the set.
         definitions: what follows of the inputs and the angle, without the set's root.
+        gaps: of circles without a line in common, what vanishes where their centres coincide; else none.
     """
 
     condition: sympy.Expr
     part: SolvedSet
     definitions: tuple[Definition, ...]
+    gaps: tuple[sympy.Symbol, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +71,8 @@ class ClosedFormMeanings:
 
     def factor(self, kind: str, value: sympy.Expr) -> GeometricPhrase:
         """What it means that a factor vanishes."""
+        if kind == "other" and self.self_motion is not None:
+            return self.reach["direct"].condition(self.self_motion.part, self.self_motion.condition)
         return self._factors.of(value, kind)
 
     @cached_property
@@ -76,12 +80,35 @@ class ClosedFormMeanings:
         """The curve of poses where the two circles of a set coincide, if a set has such a condition."""
         solution = self.formulas.direct
         for part in solution.sets:
-            base = part.directions[0]
-            if part.shared and base.kind == "circle" and len(part.lines) == 1 and part.eliminant is None:
-                (condition, *others) = part.shared
-                if not others and solution.eliminant is None and len(part.roots) == 1:
-                    return CoincidenceMotion(condition, part, self._along(part))
+            if part.directions[0].kind != "circle" or solution.eliminant is not None or len(part.roots) != 1:
+                continue
+            if len(part.shared) == len(part.lines) == 1:
+                return CoincidenceMotion(part.shared[0], part, self._along(part))
+            if not part.shared and (gaps := self._gaps(part)):
+                (condition,) = {*part.conditions} & {own.symbol for own in part.definitions}
+                return CoincidenceMotion(condition, part, self._along(part), gaps)
         return None
+
+    def _gaps(self, part: SolvedSet) -> tuple[sympy.Symbol, ...]:
+        """J and K of a circle's line J c + K s = L but for dimensions, where L vanishes with both: the line is none.
+
+        Then N = J^2 + K^2, by which the root is divided, vanishes where two circles of one radius have one centre.
+        """
+        formulas = {own.symbol: own.formula for own in part.definitions}
+        dimensions = {*self.formulas.direct.symbols.parameters.values()}
+        (root,) = part.roots
+        known = [own for own in part.conditions if own in formulas]
+        if len(known) != 1 or root.radicand not in formulas:
+            return ()
+        sides = sorted(formulas[known[0]].free_symbols, key=str)
+        rest = formulas[root.radicand].free_symbols - {*known}
+        if len(sides) != 2 or len(rest) != 1 or not {*sides, *rest} <= formulas.keys():
+            return ()
+        gaps = [formulas[side].free_symbols - dimensions for side in sides]
+        at_centre = formulas[rest.pop()].subs({symbol: 0 for gap in gaps for symbol in gap})
+        if any(len(gap) != 1 for gap in gaps) or sympy.expand(at_centre) != 0:
+            return ()
+        return tuple(gap.pop() for gap in gaps)
 
     def _along(self, part: SolvedSet) -> tuple[Definition, ...]:
         """Definitions without those that only the set's own root is worked out by."""
@@ -98,11 +125,20 @@ class ClosedFormMeanings:
         return tuple(kept)
 
     @cached_property
+    def gaps(self) -> list[tuple[str, str, sympy.Expr]]:
+        """Name, kind and value of each gap between centres that coincide on the curve, as factors of no determinant."""
+        motion = self.self_motion
+        values = () if motion is None else [self.formulas.of_direct(gap) for gap in motion.gaps]
+        return [(f"h{number}", "other", value) for number, value in enumerate(values, start=1)]
+
+    @cached_property
     def self_motion_factors(self) -> tuple[str, ...]:
-        """The factor of det Jp that vanishes with the condition."""
+        """The factor of det Jp that vanishes with the condition, or the gaps that do."""
         motion = self.self_motion
         if motion is None:
             return ()
+        if self.gaps:
+            return tuple(name for name, _, _ in self.gaps)
         value = self.formulas.in_unknowns(self.formulas.direct, motion.condition).subs(self.formulas.inputs_in_unknowns)
         return next(
             ((name,) for name, kind, factor in self.formulas.factors

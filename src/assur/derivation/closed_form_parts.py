@@ -34,6 +34,11 @@ class ClosedFormParts:
         return self.meanings.self_motion
 
     @property
+    def factors(self) -> list[tuple[str, str, sympy.Expr]]:
+        """Name, kind and value of the factors of both determinants, then of what says where that curve is."""
+        return [*self.formulas.factors, *(self.meanings.gaps if self.motion and self.meanings else ())]
+
+    @property
     def motion_angle(self) -> str:
         """The angle that runs along the curve: the file's name for it, else the link's."""
         if self.motion is None:

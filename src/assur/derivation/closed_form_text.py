@@ -284,9 +284,9 @@ class ClosedFormText(ClosedFormParts):
 
     def _factors(self) -> str:
         lines = ["def factors(ns, p, core):", '    """Factors of det Jp and det Jq."""']
-        lines += self._taken([value for _, _, value in self.formulas.factors])
+        lines += self._taken([value for _, _, value in self.factors])
         lines.append("    return {")
-        lines += [f'        "{name}": {self.printer.doprint(value)},' for name, _, value in self.formulas.factors]
+        lines += [f'        "{name}": {self.printer.doprint(value)},' for name, _, value in self.factors]
         lines.append("    }")
         return "\n".join(lines)
 

@@ -90,7 +90,8 @@ def has_self_motion(record: MechanismRecord, inputs: FloatArray) -> bool:
 
 def _least(record: MechanismRecord, inputs: FloatArray, angle: FloatArray, signs: tuple[float, ...]) -> FloatArray:
     """The smallest margin (N,) along the curve, relative to its scale."""
-    return np.asarray(np.min(list(_relative_margins(record, inputs, angle, signs).values()), axis=0))
+    margins = list(_relative_margins(record, inputs, angle, signs).values())
+    return np.asarray(np.min(margins, axis=0)) if margins else np.ones(np.shape(angle))  # nothing ends the curve
 
 
 def nearest_miss(record: MechanismRecord, inputs: FloatArray) -> Failure:
