@@ -50,6 +50,7 @@ class ClosedFormDeclaration(ClosedFormParts):
         lines.append("    factor_list=(")
         for name, kind, value in self.factors:
             unit, scale = self.formulas.unit(value), self.formulas.scale(value)
+            scale = "1" if scale == "0" else scale  # of a dimension that is zero in this file
             meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
             meaning = meaning if len(meaning) <= LONGEST_TEXT else f"{name} vanishes"
             lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{meaning}", unit={unit}),')
@@ -62,8 +63,8 @@ class ClosedFormDeclaration(ClosedFormParts):
         return "\n".join(lines)
 
     def _motion_declaration(self, motion: CoincidenceMotion) -> Iterator[str]:
-        if self.meanings is not None and self.meanings.self_motion_factors:
-            yield f"    self_motion_singular=({self.meanings.self_motion_factors!r},),"
+        if self.meanings is not None and self.meanings.self_motion_groups:
+            yield f"    self_motion_singular={self.meanings.self_motion_groups!r},"
         margin = next(name for name, value in self.formulas.margins("direct") if value == motion.condition)
         yield f'    self_motion=SelfMotion("{margin}", "{self.motion_angle}", {self.motion_signs!r}, self_motion),'
 

@@ -12,27 +12,30 @@ from assur.derivation.definitions import Definition
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.joint_formulas import Tilt
+from assur.derivation.linear import tidy
 from assur.derivation.phrases import GeometricPhrase, NamedDirection, phrase
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.kinematics.modes import Problem
-from assur.numerics.vectors import scaled
+from assur.numerics.vectors import Vector, scaled, subtract
 
 
 @dataclass(frozen=True)
 class CoincidenceMotion:
-    """A self-motion: two circles of a set coincide where a condition fails, and their angle is free.
+    """A self-motion: two circles or spheres of a set coincide where a condition fails, and an angle is free.
 
     Attributes:
         condition: what vanishes.
         part: the set.
         definitions: what follows of the inputs and the angle, without the set's root.
         gaps: of circles without a line in common, what vanishes where their centres coincide; else none.
+        centres: of three spheres those of the second and third, in radii from the first; else none.
     """
 
     condition: sympy.Expr
     part: SolvedSet
     definitions: tuple[Definition, ...]
     gaps: tuple[sympy.Symbol, ...] = ()
+    centres: tuple[Vector, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,15 +75,24 @@ class ClosedFormMeanings:
     def factor(self, kind: str, value: sympy.Expr) -> GeometricPhrase:
         """What it means that a factor vanishes."""
         if kind == "other" and self.self_motion is not None:
+            if self.self_motion.centres:
+                return phrase("a component of the distance of two spheres' centres")
             return self.reach["direct"].condition(self.self_motion.part, self.self_motion.condition)
         return self._factors.of(value, kind)
 
     @cached_property
     def self_motion(self) -> CoincidenceMotion | None:
-        """The curve of poses where the two circles of a set coincide, if a set has such a condition."""
+        """The curve of poses where two circles or spheres of a set coincide, if a set has such a condition."""
         solution = self.formulas.direct
         for part in solution.sets:
-            if part.directions[0].kind != "circle" or solution.eliminant is not None or len(part.roots) != 1:
+            if solution.eliminant is not None or len(part.roots) != 1:
+                continue
+            if centres := self._centres(part):
+                (condition,) = {*part.conditions} & {own.symbol for own in part.definitions}
+                motion = CoincidenceMotion(condition, part, self._along(part, centres), centres=centres)
+                if self._gap_groups(motion):
+                    return motion
+            if part.directions[0].kind != "circle":
                 continue
             if len(part.shared) == len(part.lines) == 1:
                 return CoincidenceMotion(part.shared[0], part, self._along(part))
@@ -88,6 +100,23 @@ class ClosedFormMeanings:
                 (condition,) = {*part.conditions} & {own.symbol for own in part.definitions}
                 return CoincidenceMotion(condition, part, self._along(part), gaps)
         return None
+
+    def _centres(self, part: SolvedSet) -> tuple[Vector, ...]:
+        """Of three unit vectors that differ by known ones the centres of the spheres about which the first one runs."""
+        first, *others = part.directions
+        if len(first.unknowns) != 3 or len(others) != len(part.lines) or len(others) != 2 or part.shared:
+            return ()
+        formulas = {own.symbol: own.formula for own in part.definitions}
+        apart = [
+            [
+                sympy.expand(own - formulas.get(other, other))
+                for own, other in zip(first.unknowns, rod.unknowns, strict=True)
+            ]
+            for rod in others
+        ]
+        unknown = {*first.unknowns, *others[0].unknowns, *others[1].unknowns}
+        known = all(not part.free_symbols & unknown for vector in apart for part in vector)
+        return tuple(tuple(vector) for vector in apart) if known else ()
 
     def _gaps(self, part: SolvedSet) -> tuple[sympy.Symbol, ...]:
         """J and K of a circle's line J c + K s = L but for dimensions, where L vanishes with both: the line is none.
@@ -110,12 +139,13 @@ class ClosedFormMeanings:
             return ()
         return tuple(gap.pop() for gap in gaps)
 
-    def _along(self, part: SolvedSet) -> tuple[Definition, ...]:
+    def _along(self, part: SolvedSet, centres: tuple[Vector, ...] = ()) -> tuple[Definition, ...]:
         """Definitions without those that only the set's own root is worked out by."""
         given = {*part.directions[0].unknowns}
         left = [own for own in self.formulas.direct.definitions if own.symbol not in given]
         wanted = {symbol for _, value in self.formulas.rest("direct") for symbol in value.free_symbols}
         wanted |= {*self.formulas.unknowns}
+        wanted |= {symbol for centre in centres for entry in centre for symbol in entry.free_symbols}
         wanted |= {root.radicand for root in self.formulas.direct.roots if root not in part.roots}
         kept: list[Definition] = []
         for own in reversed(left):
@@ -128,19 +158,36 @@ class ClosedFormMeanings:
     def gaps(self) -> list[tuple[str, str, sympy.Expr]]:
         """Name, kind and value of each gap between centres that coincide on the curve, as factors of no determinant."""
         motion = self.self_motion
-        values = () if motion is None else [self.formulas.of_direct(gap) for gap in motion.gaps]
-        return [(f"h{number}", "other", value) for number, value in enumerate(values, start=1)]
+        if motion is None:
+            return []
+        return [(name, "other", value) for group in self._gap_groups(motion) for name, value in group.items()]
+
+    def _gap_groups(self, motion: CoincidenceMotion) -> list[dict[str, sympy.Expr]]:
+        """Gaps between two centres each, by name, in the unknowns of the inverse problem."""
+        dimensions = {*self.formulas.inverse.symbols.parameters.values()}
+        pairs: list[tuple[sympy.Expr, ...]] = [motion.gaps] if motion.gaps else []
+        if motion.centres:
+            second, third = motion.centres
+            pairs = [second, third, subtract(third, second)]
+        groups: list[dict[str, sympy.Expr]] = []
+        for pair in pairs:
+            values = [sympy.factor_terms(tidy(self.formulas.of_direct(gap))) for gap in pair]
+            varying = [own for own in values if own.free_symbols - dimensions]
+            start = sum(map(len, groups)) + 1
+            if all(own == 0 for own in values if own not in varying):  # else these centres never are one
+                groups.append({f"h{start + k}": value for k, value in enumerate(varying)})
+        return groups
 
     @cached_property
-    def self_motion_factors(self) -> tuple[str, ...]:
-        """The factor of det Jp that vanishes with the condition, or the gaps that do."""
+    def self_motion_groups(self) -> tuple[tuple[str, ...], ...]:
+        """Groups of factors all of which vanish on a curve: of gaps between two centres, else the one of det Jp."""
         motion = self.self_motion
         if motion is None:
             return ()
-        if self.gaps:
-            return tuple(name for name, _, _ in self.gaps)
-        value = self.formulas.in_unknowns(self.formulas.direct, motion.condition).subs(self.formulas.inputs_in_unknowns)
-        return next(
-            ((name,) for name, kind, factor in self.formulas.factors
-             if kind == "parallel" and self._factors.proportional(value, factor)), (),
-        )  # fmt: skip
+        if groups := self._gap_groups(motion):
+            return tuple(map(tuple, groups))
+        value = self.formulas.of_direct(motion.condition)
+        return tuple(
+            (name,) for name, kind, factor in self.formulas.factors
+            if kind == "parallel" and self._factors.proportional(value, factor)
+        )[:1]  # fmt: skip

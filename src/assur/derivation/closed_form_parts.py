@@ -43,6 +43,8 @@ class ClosedFormParts:
         """The angle that runs along the curve: the file's name for it, else the link's."""
         if self.motion is None:
             return ""
+        if self.motion.centres:
+            return "turn"
         base = self.motion.part.directions[0]
         names = [name for name, own in self.angles.items() if own == base.unknowns]
         return names[0] if names else base.name

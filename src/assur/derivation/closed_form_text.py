@@ -36,6 +36,10 @@ def _over_circle(values):
 '''
 
 
+ACROSS = (3, 1, 0)
+"""A direction along which no line through coinciding centres lies but by chance: machines have axes along x, y, z."""
+
+
 class ClosedFormText(ClosedFormParts):
     """Writes the closed form of a mechanism whose direct and inverse problems were solved."""
 
@@ -66,6 +70,8 @@ class ClosedFormText(ClosedFormParts):
         if self.formulas.joints.pointings:
             imports.append("from assur.numerics.legs import pointing")
         used = {"taking": bool(self.formulas.joints.tilts), "product": self._many, "transposed": self._turned}
+        if self.motion is not None and self.motion.centres:
+            imports.append("from assur.numerics.meetings import coincident_spheres")
         vectors = sorted(name for name, needed in used.items() if needed)
         if vectors:
             imports.append(f"from assur.numerics.vectors import {', '.join(vectors)}")
@@ -111,25 +117,39 @@ class ClosedFormText(ClosedFormParts):
         motion = self.motion
         if motion is None:
             return ""
-        cosine, sine = motion.part.directions[0].unknowns
+        given = motion.part.directions[0].unknowns
         lines = ["def self_motion(ns, p, inputs, angle, sign):"]
         signs = ", ".join(self.motion_signs) or "none"
         lines.append(f'    """Poses at {motion.condition} = 0, by {self.motion_angle}. Signs: {signs}."""')
         lines += self._given("direct")
-        lines.append(f"    {cosine}, {sine} = angle")
-        lines += self._lines("direct", motion.definitions)
+        before, after = _split(motion.definitions, given)
+        if motion.centres:
+            lines += self._lines("direct", before)
+            second, third = map(self._pair_text, motion.centres)
+            lines.append(f"    centres = ((0, 0, 0), {second}, {third})")
+            call = f"coincident_spheres(ns, centres, 1, {ACROSS!r}, angle)"
+            lines.append(f"    ({', '.join(map(str, given))}), radicand = {call}")
+            lines += self._lines("direct", after)
+        else:
+            lines.append(f"    {', '.join(map(str, given))} = angle")
+            lines += self._lines("direct", motion.definitions)
         every = {own.symbol for own in self.formulas.direct.definitions}
-        left_out = every - {own.symbol for own in motion.definitions} - {cosine, sine}
-        return "\n".join([*lines, *self._branch("direct", left_out)])
+        left_out = every - {own.symbol for own in motion.definitions} - {*given}
+        radicand = motion.part.roots[0].radicand if motion.centres else None
+        return "\n".join([*lines, *self._branch("direct", left_out, radicand)])
 
-    def _branch(self, problem: Problem, left_out: Collection[sympy.Symbol] = ()) -> list[str]:
-        """The rest of a kernel, once its unknowns are known; margins of what is left out are left out too."""
+    def _branch(
+        self, problem: Problem, left_out: Collection[sympy.Symbol] = (), radicand: sympy.Symbol | None = None
+    ) -> list[str]:
+        """The rest of a kernel, once its unknowns are known; margins of what is left out are left out too, but for a
+        radicand that is called so.
+        """
         lines = [f"    {symbol.name} = {self.printer.doprint(value)}" for symbol, value in self.formulas.rest(problem)]
         lines.append(f"    core = _core(ns, p, {', '.join(map(str, [*self.formulas.posed, *self.formulas.unknowns]))})")
         margins = ", ".join(
-            f'"{name}": {self.printer.doprint(value)}'
+            f'"{name}": {"radicand" if value == radicand else self.printer.doprint(value)}'
             for name, value in self.formulas.margins(problem)
-            if not value.free_symbols & {*left_out}
+            if value == radicand or not value.free_symbols & {*left_out}
         )
         pose, inputs = self._pair_text(self.formulas.posed_pairs), self._pair_text(self.formulas.input_pairs)
         lines.append(f"    margins = {{{margins}}}")
@@ -300,3 +320,19 @@ class ClosedFormText(ClosedFormParts):
             lines.append("    )")
         lines.append("    return jp, jq")
         return "\n".join(lines)
+
+
+def _split(
+    definitions: Iterable[Definition], given: Collection[sympy.Symbol]
+) -> tuple[list[Definition], list[Definition]]:
+    """Definitions that do not need some symbols, and those that do."""
+    before: list[Definition] = []
+    after: list[Definition] = []
+    late = {*given}
+    for own in definitions:
+        if own.formula.free_symbols & late:
+            after.append(own)
+            late.add(own.symbol)
+        else:
+            before.append(own)
+    return before, after

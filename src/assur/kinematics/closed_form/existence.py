@@ -15,13 +15,17 @@ from assur.model.mechanism import MechanismRecord
 BoolArray = NDArray[np.bool_]
 
 
+HIGHEST = 4
+"""No margin's zero is of a higher order: the square of a product of two lengths."""
+
+
 def tolerance(record: MechanismRecord, margin: Margin) -> float:
     """Within what a margin is zero, in its own unit.
 
     A radicand: MARGIN_TOLERANCE of its scale. A quantity at whose zero the formulas degenerate: FACTOR_TOLERANCE
-    to the power of its unit, as the factor that vanishes with it.
+    to the power of its unit, as the factor that vanishes with it, but for what it is multiplied with beyond that.
     """
-    share = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** max(margin.unit, 1)
+    share = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** min(max(margin.unit, 1), HIGHEST)
     return share * scale(record, margin.scale)
 
 
