@@ -10,10 +10,12 @@ from assur.derivation.reasons import left_out
 from assur.derivation.solution import analytic_solution
 from assur.derivation.velocities import velocity_equations
 from assur.kinematics.contract.check import problems
+from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
+from assur.model.kernels.reading import names_of
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
@@ -137,5 +139,11 @@ def test_the_height_of_rods_that_are_equally_high_is_a_factor_of_its_own(tmp_pat
 
 
 @pytest.mark.deep
-def test_a_closed_form_says_where_rods_oblique_to_their_hinges_end_branches(tmp_path):
-    assert '"room_leg1_rodC1"' in derived_closed_form(draft(OBLIQUE["3-PRPaR"], tmp_path))
+@pytest.mark.parametrize("limb", OBLIQUE.values(), ids=[*OBLIQUE])
+def test_a_closed_form_says_where_rods_oblique_to_their_hinges_end_branches(limb, tmp_path):
+    record = draft(limb, tmp_path)
+    text = derived_closed_form(record)  # which is held against the joint graph
+    form = names_of(text, tmp_path / "closed_form.py")["CLOSED_FORM"]
+    ends = {item.name for item in form.inverse_margins if item.zero == "merge" and not item.signs}
+    assert ends == {f"room_leg{number}_rodC1" for number in (1, 2, 3)}
+    assert exactness(record.with_closed_form(form, text)).proved

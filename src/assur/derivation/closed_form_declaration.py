@@ -90,7 +90,7 @@ class ClosedFormDeclaration(ClosedFormParts):
             kind = 'zero="degenerate"'
             if value in roots:
                 kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"
-            elif value in self.formulas.joints.leaning:
+            elif (rod := self.formulas.joints.leaning.get(value)) is not None and value == rod.room:
                 kind = "signs=()"
             yield f'Margin("{name}", "{scale}", "{meaning}", unit={unit}, {kind})'
 

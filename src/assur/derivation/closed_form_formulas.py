@@ -176,8 +176,8 @@ class ClosedFormFormulas:
                 yield root.radicand.name, root.radicand
         for tilt in self.joints.tilts:
             yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
-        for room, own in self.joints.leaning.items():
-            yield f"room_{own.name}", room
+        for value, own in self.joints.leaning.items():
+            yield f"{'room' if value == own.room else 'square'}_{own.name}", value
 
     def _divides(self, solution: AnalyticSolution, part: SolvedSet, condition: sympy.Expr) -> bool:
         """Whether a condition is of more than dimensions, and of a polynomial's unknowns one that is divided by."""

@@ -64,7 +64,8 @@ class ClosedFormMeanings:
         if (rod := self.formulas.joints.leaning.get(value)) is not None:
             lines = self.reach["inverse"].lines
             direction = next(own for own in lines.loops.directions if own.name == rod.name)
-            return phrase("{} points too far along {}", lines.name(direction), NamedDirection(rod.axis))
+            text = "{} points too far along {}" if value == rod.room else "{} points along {}"
+            return phrase(text, lines.name(direction), NamedDirection(rod.axis))
         return self._upright(next(tilt for tilt in self.formulas.joints.tilts if name.endswith(tilt.name[5:])))
 
     def _upright(self, tilt: Tilt) -> GeometricPhrase:

@@ -67,7 +67,7 @@ class ClosedFormText(ClosedFormParts):
         if self.eliminant is not None:
             declared.append("Eliminant")
             imports.append("from assur.numerics.expanded import coefficients_of, unknowns")
-        if self.formulas.joints.pointings:
+        if any(own.lean == 0 for own in self.formulas.joints.pointings):
             imports.append("from assur.numerics.legs import pointing")
         used = {"taking": bool(self.formulas.joints.tilts), "product": self._many, "transposed": self._turned}
         if self.motion is not None and self.motion.centres:
@@ -255,23 +255,24 @@ class ClosedFormText(ClosedFormParts):
         (a, b), (c, d) = own.carrier, own.hinge
         ahead, beside = (self.printer.doprint(-part if own.back else part) for part in (own.ahead, own.beside))
         along = self.printer.doprint(own.along / own.level)
-        if own.lean != 0:
-            yield from self._upright(own, ahead, beside)
-            ahead, beside = f"{c}_ahead", f"{c}_beside"
-        yield f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)"
+        if own.lean == 0:
+            yield f"    ({a}, {b}), ({c}, {d}), _ = pointing(ns, {ahead}, {beside}, {along}, 1e-30)"
+        else:
+            yield from self._leaning(own, ahead, beside)
+            yield f"    {d} = {along}"
         if own.back:
             yield f"    {c} = -{c}"
 
-    def _upright(self, own: Pointing, ahead: str, beside: str) -> Iterator[str]:
-        """Lines that make of a rod that leans along its hinge one across it, on the same carrier."""
-        name, lean = own.hinge[0], self.printer.doprint(-own.lean if own.back else own.lean)
-        x, y, square, across, share = (f"{name}_{part}" for part in ("x", "y", "square", "across", "share"))
+    def _leaning(self, own: Pointing, ahead: str, beside: str) -> Iterator[str]:
+        """Lines for a rod that leans along its hinge; that its line is a unit vector needs no root."""
+        (a, b), name, lean = own.carrier, own.hinge[0], self.printer.doprint(-own.lean if own.back else own.lean)
+        x, y, square, across = (f"{name}_{part}" for part in ("x", "y", "square", "across"))
         yield f"    {x}, {y} = {ahead}, {beside}"
         yield f"    {square} = {x} * {x} + {y} * {y}"
         yield f"    {across} = ns.sqrt({square} - ({lean}) * ({lean}))"
-        yield f"    {share} = {across} / ({square} * ({self.printer.doprint(own.level)}))"
-        yield f"    {name}_ahead = {share} * ({x} * {across} + {y} * ({lean}))"
-        yield f"    {name}_beside = {share} * ({y} * {across} - {x} * ({lean}))"
+        yield f"    {a} = ({x} * {across} + {y} * ({lean})) / {square}"
+        yield f"    {b} = ({y} * {across} - {x} * ({lean})) / {square}"
+        yield f"    {name} = {across} / ({self.printer.doprint(own.level)})"
 
     def _joints(self) -> str:
         flat: list[Any] = []

@@ -50,9 +50,14 @@ class Pointing:
         return str(self.hinge[0].name.removeprefix("cos_"))
 
     @property
+    def square(self) -> sympy.Expr:
+        """What is zero where the rod points along the axis of what carries it."""
+        return self.ahead**2 + self.beside**2
+
+    @property
     def room(self) -> sympy.Expr:
-        """What is negative where a rod oblique to its hinge points too far along the axis of what carries it."""
-        return self.ahead**2 + self.beside**2 - self.lean**2
+        """What is negative where a rod oblique to its hinge points too far along that axis."""
+        return self.square - self.lean**2
 
 
 @dataclass(frozen=True)
@@ -89,8 +94,8 @@ class SolvedJoints:
 
     @property
     def leaning(self) -> dict[sympy.Expr, Pointing]:
-        """What must not be negative -> the rod oblique to its hinge of which that is said."""
-        return {own.room: own for own in self.pointings if own.lean != 0}
+        """What must not be negative, and what not zero -> the rod oblique to its hinge of which that is said."""
+        return {value: own for own in self.pointings if own.lean != 0 for value in (own.room, own.square)}
 
 
 def joint_formulas(solution: AnalyticSolution) -> SolvedJoints:
