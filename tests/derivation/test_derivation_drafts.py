@@ -31,6 +31,9 @@ UNLIKE = {
     "five-bar with a slider in a limb": ["R[z] R[z]", "R[z] P[x] R[z]"],
     "five-bar with a driven slider": ["P[x] R[z]", "P[y] R[z] R[z]"],
     "a sign that is a product of roots": ["C[x] R[x] R[x]", "R[y] R[y] C[y]", "P[z] R[z] R[z] R[z]"],
+    "parallelograms in another order": [LOOPED, "P[y] P(4R)[x] P(4R)[y]"],
+    "an oblique axis": ["C[x] R[x] R[x]", "C[z] R[z] R[z]", "C[1,1,0] R[1,1,0] R[1,1,0]"],
+    "a slider after a crank": ["R[y] R[y] P[z]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
 }
 APART = 1e-6
