@@ -6,6 +6,7 @@ import pytest
 from assur.cli.main import main
 from assur.derivation.kept import derived_closed_form
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.printed_derivation import printed_derivation
 from assur.derivation.reasons import left_out
 from assur.derivation.solution import analytic_solution
 from assur.derivation.velocities import velocity_equations
@@ -150,3 +151,11 @@ def test_a_closed_form_says_where_rods_oblique_to_their_hinges_end_branches(limb
     ends = {item.name for item in form.inverse_margins if item.zero == "merge" and not item.signs}
     assert ends == {f"room_leg{number}_rodC1" for number in (1, 2, 3)}
     assert exactness(record.with_closed_form(form, text)).proved
+
+
+@pytest.mark.deep
+def test_in_print_no_root_bears_a_name_that_its_sign_is_a_part_of(tmp_path):
+    """The sign of one root of three is that of the platform times those of the others."""
+    record = draft_of(parse_chains(UNLIKE["a sign that is a product of roots"]), tmp_path)
+    (own,) = printed_derivation(record, {"direct": analytic_solution(record, "direct")}, {}).problems
+    assert len(own.written.meanings) == len(own.written.solution.roots) - 1

@@ -116,14 +116,18 @@ def printed_derivation(
 
 
 def _signs(record: MechanismRecord, solutions: Mapping[Problem, AnalyticSolution]) -> RootSigns:
-    """Names of the roots' signs, as far as both problems give them; a problem alone asks for the other one."""
+    """Names of the roots' signs, as far as both problems give them; a problem alone asks for the other one.
+
+    A root whose sign is a product of several has none: in print it is the sign of what the root is of.
+    """
     whole = dict(solutions)
     others: tuple[Problem, ...] = ("direct", "inverse")
     try:
         for problem in others:
             if problem not in whole:
                 whole[problem] = analytic_solution(record, problem)
-        return matched_signs(whole["direct"], whole["inverse"]).roots
+        matched = matched_signs(whole["direct"], whole["inverse"])
+        return {root: own for root, own in matched.roots.items() if root not in matched.products}
     except NotDerivedError:
         return {}
 
