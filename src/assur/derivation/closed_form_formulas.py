@@ -24,6 +24,10 @@ from assur.model.pose import ANGLES, LENGTHS
 from assur.numerics.vectors import dot, product, transposed
 
 
+LENIENT = 2
+"""So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
+
+
 @dataclass(frozen=True)
 class SignProduct:
     """What a root's sign has beside its name, where it is a product.
@@ -300,7 +304,8 @@ class ClosedFormFormulas:
         formula, home = formulas.get(value, value), solution.symbols.witness.home
         known = formula.free_symbols <= home.keys()  # what follows of a polynomial's root is not
         terms = sympy.Add.make_args(formula) if known else ()
-        at_home = sum(abs(solution.symbols.witness.at_home(term)) for term in terms) if known else None
+        lenient = LENIENT if problem == "direct" else 1
+        at_home = lenient * sum(abs(solution.symbols.witness.at_home(term)) for term in terms) if known else None
         return self._sizes.scale(self.in_unknowns(solution, value), at_home)
 
     @cached_property

@@ -14,6 +14,8 @@ from itertools import combinations
 
 import sympy
 
+from assur.derivation.elimination import Root, SolvedSet
+from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.linear import ONE, Form, combined, divided, form_of, replaced, solved, sparse, tidy
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
@@ -46,7 +48,57 @@ def velocity_equations(solution: AnalyticSolution) -> VelocityEquations:
     """The velocity equations of an inverse problem that was solved. Errors: NotDerivedError."""
     for what in turning_in_space(solution):
         raise NotDerivedError(f"no velocity equations are derived for {what}")
-    return _Velocities(solution).equations()
+    return _with_borders(solution, _Velocities(solution).equations())
+
+
+def _with_borders(solution: AnalyticSolution, equations: VelocityEquations) -> VelocityEquations:
+    """The same where a limb that is straight is a factor too.
+
+    Where a root of the inverse problem vanishes, two ways to stand are one, and the links there can move while platform
+    and inputs stand. An equation that holds all the same says nothing of that: it is multiplied by what vanishes.
+    """
+    meanings, known = FactorMeanings(solution), [*equations.parallel, *equations.serial]
+    jp, jq, more = equations.jp.copy(), equations.jq.copy(), []
+    for part in solution.sets:
+        for root in part.roots:
+            if any(meanings.proportional(root.quantity, base) for base, _ in known if not base.is_number):
+                continue
+            if (factor := _knee(part, root, meanings)) is None:
+                continue
+            row = _row_of(solution, part, jq)
+            for matrix in (jp, jq):
+                matrix[row, :] = factor * matrix[row, :]
+            more.append((factor, 1))
+    return VelocityEquations(jp, jq, (*equations.parallel, *more), (*equations.serial, *more)) if more else equations
+
+
+def _knee(part: SolvedSet, root: Root, meanings: FactorMeanings) -> sympy.Expr | None:
+    """The sine of the angle between two links of a set, where that vanishes with its root; else None."""
+    circles = [direction.unknowns for direction in part.directions if direction.kind == "circle"]
+    sines = (c1 * s2 - c2 * s1 for (c1, s1), (c2, s2) in combinations(circles, 2))
+    return next((sine for sine in sines if meanings.proportional(root.quantity, sine)), None)
+
+
+def _row_of(solution: AnalyticSolution, part: SolvedSet, jq: sympy.Matrix) -> int:
+    """The equation of the input that stands in the limb of a set's first link; the first one where there is none."""
+    record, links = solution.symbols.record, {*part.directions[0].links}
+    limbs = [
+        {
+            end
+            for name in names
+            if name in record.joints
+            for end in (record.joints[name].parent, record.joints[name].child)
+        }
+        for names in ((*limb.serial, *limb.loop, *limb.tail) for limb in record.chains.values())
+    ]
+    fixed = {record.base, record.platform.link}
+    for column, driven in enumerate(record.inputs):
+        joint = record.joints[driven.coordinate.joint]
+        own = [limb for limb in limbs if ({joint.parent, joint.child} - fixed) & limb and (links - fixed) & limb]
+        rows = [row for row in range(jq.rows) if jq[row, column] != 0]
+        if own and rows:
+            return rows[0]
+    return 0
 
 
 class _Velocities:
