@@ -23,7 +23,6 @@ from assur.kinematics.modes import Problem
 from assur.model.pose import ANGLES, LENGTHS
 from assur.numerics.vectors import dot, product, transposed
 
-
 LENIENT = 2
 """So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
 
