@@ -1,5 +1,7 @@
 """What the pose leaves out, as it is printed: at a pose and over a workspace."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,17 @@ def test_every_inverse_solution_comes_with_the_platforms_other_coordinates(assur
     assert first["parasitic"]["phi"] == pytest.approx(phi)
     out = assur_cli(*asked).out
     assert "coordinates that the pose leaves out" in out
-    assert f"{phi:.6g}" in out
+    assert f"{phi:.4f}" in out
+
+
+def test_what_is_nought_but_for_rounding_is_printed_as_nought(assur_cli):
+    lines = assur_cli("direct", "three_rps", "250", "250", "250").out.splitlines()
+    start = next(k for k, line in enumerate(lines) if "leaves out" in line)
+    rows = [line.split() for line in lines[start + 3 :] if line.split()[0][0] in "+-"]
+    numbers = [number for row in rows for number in row[1:]]
+    assert "0.0000" in numbers
+    assert all(re.fullmatch(r"-?\d+\.\d{4}", number) for number in numbers)
+    assert "-0.0000" not in numbers
 
 
 def test_where_nothing_else_moves_nothing_is_said(assur_cli):

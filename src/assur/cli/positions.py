@@ -11,7 +11,6 @@ from rich.console import RenderableType
 from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import unit_of
 from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
@@ -75,7 +74,7 @@ def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) ->
         yield from exceeded(data)
         yield from _open_loops(data)
         yield from _remarks(data)
-        yield from _parasitic(record, data.solutions)
+        yield from _parasitic(style, data.solutions)
         if isinstance(data, DirectAnswer):
             yield from _following(record, data.solutions, style)
     if data.curves:
@@ -228,7 +227,7 @@ def _listed(modes: list[str], data: Positions | CertifiedPositions) -> str:
     return "all" if len(modes) == len(data.solutions) else ", ".join(modes)
 
 
-def _parasitic(record: Mechanism, solutions: Iterable[PoseSolution | InputsSolution]) -> Iterable[RenderableType]:
+def _parasitic(style: Style, solutions: Iterable[PoseSolution | InputsSolution]) -> Iterable[RenderableType]:
     """Of every solution the platform's coordinates that the pose leaves out; nothing where none of them moves."""
     listed = [item for item in solutions if item.parasitic]
     if not listed:
@@ -236,8 +235,8 @@ def _parasitic(record: Mechanism, solutions: Iterable[PoseSolution | InputsSolut
     names = tuple(listed[0].parasitic)
     yield "the platform's coordinates that the pose leaves out:"
     yield table(
-        ("mode", *(f"{name} [{unit_of(record, name)}]" for name in names)),
-        [(item.mode, *(short(item.parasitic[name]) for name in names)) for item in listed],
+        ("mode", *map(style.coordinate_title, names)),
+        [(item.mode, *(style.coordinate(name, item.parasitic[name]) for name in names)) for item in listed],
     )
 
 

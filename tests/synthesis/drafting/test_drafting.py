@@ -145,6 +145,7 @@ def test_a_home_that_would_be_singular_is_moved():
     [
         (("R[z] R[z] R[z]",), {}, "one open chain"),
         (("R[z]", "R[z]"), {}, "a structure that does not move"),
+        (("R[z] R[z] R[z] R[z]", "R[z] R[z]", "R[z]"), {}, "platform does not move; by themselves move R1, R2, R3, R4"),
         (("R[x] R[y] R[z] S", "S S"), {"actuate": ["1.1", "1.2", "1.1"]}, "twice"),
         (("R[z] R[z] R[z]", "R[z] R[z]"), {"actuate": ["1.1"]}, "do not determine the mechanism: too few"),
         (("P[x] P[x] P[y] R[z]", "P[y] R[z] R[z]"), {}, "P1 can move while it stands still"),

@@ -33,10 +33,7 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     )
     asked = topology.actuation
     if not asked.needed:
-        raise UsageError(
-            f"the chains make a structure that does not move: {topology.dof} degrees of freedom",
-            hint=_why_rigid(chains),
-        )
+        raise UsageError(_what_stands_still(topology), hint=_why_rigid(chains))
     idle = sorted({joint for joints in topology.internal_joints for joint in joints if joint in names})
     if idle or asked.needed > topology.poc.dim:
         moving = ", ".join(idle) or "driven joints"
@@ -59,6 +56,14 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
         )
     chosen = min(usable, key=lambda components: max(Counter(limb_of[name] for name in components).values()))
     return chosen, analyse(place(chains, actuated=chosen), chains, mode=mode)
+
+
+def _what_stands_still(topology: Topology) -> str:
+    """That nothing moves, or nothing but limbs by themselves."""
+    if not topology.dof:
+        return "the chains make a structure that does not move: 0 degrees of freedom"
+    moving = ", ".join(joint for joints in topology.internal_joints for joint in joints)
+    return f"the platform does not move; by themselves move {moving}"
 
 
 def _why_rigid(chains: Sequence[Chain]) -> str:
