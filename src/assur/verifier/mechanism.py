@@ -77,7 +77,7 @@ class FileMechanism:
         parameters: name -> its formula, and its unit if that is one of angles.
         joints: by their full names, in the order of the file, those of limbs last.
         base, platform: links; `point` is that of the platform, in its frame, and `pose` names what counts of it.
-        inputs: (joint, coordinate) each.
+        inputs: (joint, coordinate) each, of those that determine the mechanism.
         positive: parameters that may be nothing else.
         degrees: whether plain numbers that are angles are in degrees.
         printed: how each input is printed, in their order.
@@ -167,7 +167,8 @@ def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMech
     order = data.get("inputs", {}).get("order")
     named = [("", name) for name in order] if order else inputs
     ways = {_coordinate(name, parts, aliases): own for name, own in printed.items()}
-    driven_ones = tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named)
+    rates = len(platform["pose"]) - ("qw" in platform["pose"])  # as many inputs determine it, and others follow
+    driven_ones = tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named)[:rates]
     return FileMechanism(
         {name: (written[name], unit if unit in ("deg", "rad") else "") for name, unit in units.items()},
         parts,
