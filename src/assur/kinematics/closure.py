@@ -192,7 +192,7 @@ def closing_system(
     (True, (1, 8, 5))
     """
     length, count = characteristic_length(record), len(record.coordinates)
-    system = program(record, gaps_and_rates if poses is None else closing_numbers)
+    system = program(record, closing_numbers)  # also without poses: a program more takes longer to record
     numbers = system(record, values)
     loops = len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)
@@ -219,6 +219,7 @@ def assemble(
     poses: FloatArray | None = None,
     tolerance: float = 1e-12,
     max_steps: int = 80,
+    enough: float = 1.0,
     near: bool = False,
     far: bool = False,
 ) -> Assembly:
@@ -231,6 +232,7 @@ def assemble(
         poses: (..., m), where the platform must be (an inverse problem); anywhere by default.
         tolerance: relative to the characteristic length.
         max_steps: of damped least squares on the whole joint graph, so that redundant loops do no harm.
+        enough: share of the starts that must close before the others are left as they are.
         near: whether the starts are known to be near an assembly: the first step is then hardly damped, and many starts
             go through Newton's method first.
         far: whether they may be anywhere: the first step is then damped much more, and the rotation vectors of ball
@@ -278,6 +280,7 @@ def assemble(
                 values[np.ix_(block, free)] / scale,
                 tolerance=tolerance,
                 max_steps=max_steps,
+                enough=enough,
                 damping=damping,
                 same=unwound if far else None,
             )

@@ -43,6 +43,7 @@ def minimise(
     *,
     tolerance: float,
     max_steps: int = 60,
+    enough: float = 1.0,
     max_change: float = np.inf,
     damping: float = DAMPING,
     same: Callable[[FloatArray], FloatArray] | None = None,
@@ -51,9 +52,10 @@ def minimise(
 
     `system(x, rows)` returns residuals (k, r) and Jacobians (k, r, n) of the k problems with those row
     numbers, at x (k, n). A problem has converged when every residual is at most `tolerance`; one that has
-    not is reported as it stands, never dropped. `damping` is that of the first step, as a share of the mean square of
-    the Jacobian's columns: small where the start is known to be near. `same(x)` may say (k, n) better unknowns for the
-    same thing.
+    not is reported as it stands, never dropped. With `enough` below 1 no more steps are made once this share
+    has converged: of starts by chance the last few take most of them. `damping` is that of the first step, as
+    a share of the mean square of the Jacobian's columns: small where the start is known to be near. `same(x)`
+    may say (k, n) better unknowns for the same thing.
 
     Example: the root of x^2 = 2.
 
@@ -69,6 +71,8 @@ def minimise(
     steps = 0
     while steps < max_steps:
         active = np.flatnonzero(np.max(np.abs(residual), axis=1, initial=0.0) > tolerance)
+        if len(active) <= (1.0 - enough) * len(x):
+            break
         model = _LinearModels.of(residual[active], jacobian[active])
         if np.any(model.in_valley):
             active = active[~model.in_valley]
