@@ -22,7 +22,7 @@ SEARCHED = 4
 TRACED = 12
 """So many, three times, of one that answers by tracing the paths of a homotopy, or by the roots of a polynomial."""
 ANSWERS = {}
-"""Of this process, by the mechanism's name."""
+"""Of this process, by the mechanism's folder: a derived form has the name of the written one."""
 
 
 def direct(mechanism, inputs):
@@ -33,9 +33,9 @@ def direct(mechanism, inputs):
 @pytest.fixture
 def answer(mechanism, regular):
     """The direct problem at the inputs of all regular solutions, solved once for all that is asked of it."""
-    if mechanism.name not in ANSWERS:
-        ANSWERS[mechanism.name] = direct(mechanism, np.array([inputs for _, _, inputs, _ in regular]))
-    return ANSWERS[mechanism.name]
+    if mechanism.file not in ANSWERS:
+        ANSWERS[mechanism.file] = direct(mechanism, np.array([inputs for _, _, inputs, _ in regular]))
+    return ANSWERS[mechanism.file]
 
 
 def test_home_closes_and_is_in_the_default_modes(mechanism):

@@ -23,7 +23,7 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 BEYOND_DOUBT = 1e-2
-"""Part of its scale by which a radicand is negative for certain: rounding moves n roots that meet by its n-th root."""
+"""Part of its scale by which a margin is not zero for certain: rounding moves n roots that meet by its n-th root."""
 
 
 def decided(branches: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
@@ -37,13 +37,15 @@ def decided(branches: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
         dropped (N, K): its loops stay open, or it is the pose of another root.
         unsure (N, K): there may be another pose here. That is so where an assembly was reached that is no branch, where
         two roots lead to one pose that is not singular, where the kernel degenerates and no margin forbids the branch,
-        and where three or more roots lie together and not all of them are poses that are not singular.
+        where it may degenerate and the loops stay open (so it loses two poses that share a root), and where three or
+        more roots lie together and not all of them are poses that are not singular.
     """
-    degenerate, forbidden = np.zeros(count.shape, dtype=bool), np.zeros(count.shape, dtype=bool)
+    degenerate, nearly, forbidden = (np.zeros(count.shape, dtype=bool) for _ in range(3))
     for margin in branches._margin_list:
         value = branches.margins[margin.name]
         if margin.zero == "degenerate":
             degenerate |= vanishes(branches.record, margin, value) | ~np.isfinite(value)
+            nearly |= np.abs(value) <= BEYOND_DOUBT * scale(branches.record, margin.scale)
         else:
             forbidden |= value < -BEYOND_DOUBT * scale(branches.record, margin.scale)
     count = np.where(forbidden, 0, count)
@@ -52,7 +54,7 @@ def decided(branches: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
     for row in range(len(count)):
         one = _Problem(branches.record, joints[row], residuals[row], status[row], count[row])
         dropped[row], more = one.decided()
-        unsure[row] |= more
+        unsure[row] |= more | (one.open & nearly[row])
     return dropped, unsure
 
 
