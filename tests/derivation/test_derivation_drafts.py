@@ -14,6 +14,7 @@ from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import home_values
+from assur.kinematics.naming import sign_meanings
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.kernels.reading import names_of
@@ -35,6 +36,7 @@ UNLIKE = {
     "parallelograms in another order": [LOOPED, "P[y] P(4R)[x] P(4R)[y]"],
     "an oblique axis": ["C[x] R[x] R[x]", "C[z] R[z] R[z]", "C[1,1,0] R[1,1,0] R[1,1,0]"],
     "a slider after a crank": ["R[y] R[y] P[z]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
+    "rails that are oblique": ["P[1,0,1] P(4S)[y]", "P[y] P(4S)[x]", "P[z] P(4S)[y]"],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
 }
 APART = 1e-6
@@ -132,6 +134,15 @@ def test_limbs_that_are_unlike_have_a_closed_form_with_velocities_that_the_joint
     assert "parallel" in derived_closed_form(record)  # which is held against the joint graph
     equations = velocity_equations(analytic_solution(record, "inverse"))
     assert equations.jp.shape == equations.jq.shape == (len(record.inputs),) * 2
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(("limb", "count", "branches"), [("P[x] P(4S)[y]", 3, 2), ("R[y] P(4S)[y]", 4, 4)])
+def test_rods_on_rails_and_a_passive_limb_have_a_closed_form(limb, count, branches, tmp_path):
+    """Couples parallel to one plane are a factor; a rod's spin across a joint's axis changes no mode's name."""
+    record = draft_of(repeated(limb, count), tmp_path)
+    assert '("couples' in derived_closed_form(record).replace("'", '"')
+    assert analytic_solution(record, "direct").branches == branches == 2 ** len(sign_meanings(record, "direct"))
 
 
 @pytest.mark.deep

@@ -16,6 +16,7 @@ from assur.cli.output import Verbatim, heading
 from assur.cli.paths import output_file
 from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.home_conditions import conditions_at_home
@@ -222,6 +223,8 @@ def _factors(record: Mechanism) -> Iterator[DerivedFactor]:
     with contextlib.suppress(NotDerivedError):
         for name, kind, value in formulas.factors:
             yield DerivedFactor(name, kind, str(value), meanings.of(value, kind).text)
+        for name, value in coplanar_couples(inverse).items():
+            yield DerivedFactor(name, "constraint", str(value), COPLANAR)
 
 
 def _reasons(placed: LinkOrientations) -> Iterator[DerivedReason]:
@@ -262,12 +265,16 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         yield from _cases(part)
         yield from _counted(part)
         yield ""
-    if data.factors:
-        yield "det Jp and det Jq are products of"
-        for factor in data.factors:
+    loose = [factor for factor in data.factors if factor.kind == "constraint"]
+    for factors, said in (
+        ([factor for factor in data.factors if factor not in loose], "det Jp and det Jq are products of"),
+        (loose, "the platform is no longer kept from turning where all of these vanish:"),
+    ):
+        yield from [said] if factors else []
+        for factor in factors:
             yield Verbatim(f"    {factor.name} = {factor.formula}")
             yield _meaning(f"{factor.name} = 0: {factor.meaning}")
-        yield ""
+    yield from [""] if data.factors else []
     if data.not_written is not ABSENT:
         yield f"no closed form is written: {data.not_written}"
     yield from (f"written: {name}" for name in (data.latex, data.c) if name is not ABSENT)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from assur.derivation.closed_form_meanings import CoincidenceMotion
 from assur.derivation.closed_form_parts import ClosedFormParts
+from assur.derivation.constraint_couples import COPLANAR
 from assur.derivation.kernel_text import sign_attribute
 from assur.kinematics.modes import Problem, written_quantities
 from assur.kinematics.naming import sign_meanings
@@ -51,7 +52,11 @@ class ClosedFormDeclaration(ClosedFormParts):
         for name, kind, value in self.factors:
             unit, scale = self.formulas.unit(value), self.formulas.scale(value)
             scale = "1" if scale == "0" else scale  # of a dimension that is zero in this file
-            meaning = f"{name} vanishes" if self.meanings is None else self.meanings.factor(kind, value).text
+            meaning = f"{name} vanishes"
+            if name in self.couples:
+                meaning = COPLANAR
+            elif self.meanings is not None:
+                meaning = self.meanings.factor(kind, value).text
             meaning = meaning if len(meaning) <= LONGEST_TEXT else f"{name} vanishes"
             lines.append(f'        Factor("{name}", "{kind}", "{scale}", "{meaning}", unit={unit}),')
         lines.append("    ),")

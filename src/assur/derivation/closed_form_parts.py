@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy
@@ -20,11 +21,13 @@ class ClosedFormParts:
         formulas: of both problems.
         meanings: of its quantities; of a form that is worked out and not read by anyone there are none.
         constraint_singular: groups of factors where the closure loses rank.
+        couples: name -> what vanishes where couples no longer keep the platform from turning.
     """
 
     formulas: ClosedFormFormulas
     meanings: ClosedFormMeanings | None = None
     constraint_singular: tuple[tuple[str, ...], ...] = ()
+    couples: Mapping[str, sympy.Expr] = field(default_factory=dict)
 
     @property
     def motion(self) -> CoincidenceMotion | None:
@@ -35,8 +38,9 @@ class ClosedFormParts:
 
     @property
     def factors(self) -> list[tuple[str, str, sympy.Expr]]:
-        """Name, kind and value of the factors of both determinants, then of what says where that curve is."""
-        return [*self.formulas.factors, *(self.meanings.gaps if self.motion and self.meanings else ())]
+        """Name, kind and value of the factors of both determinants, of couples, and of what says where the curve is."""
+        couples = [(name, "other", value) for name, value in self.couples.items()]
+        return [*self.formulas.factors, *couples, *(self.meanings.gaps if self.motion and self.meanings else ())]
 
     @property
     def motion_angle(self) -> str:

@@ -45,9 +45,9 @@ class ClosedFormText(ClosedFormParts):
 
     def text(self) -> str:
         """The file."""
+        declared = ClosedFormDeclaration(self.formulas, self.meanings, self.constraint_singular, self.couples)
         parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._self_motion(), self._core(),
-                 self._joints(), self._factors(), self._jacobians(), self._quantities(),
-                 ClosedFormDeclaration(self.formulas, self.meanings, self.constraint_singular).text()]  # fmt: skip
+                 self._joints(), self._factors(), self._jacobians(), self._quantities(), declared.text()]  # fmt: skip
         return "\n\n".join(part.strip("\n") + "\n" for part in parts if part)
 
     @cached_property

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_meanings import ClosedFormMeanings
 from assur.derivation.closed_form_text import ClosedFormText
+from assur.derivation.constraint_couples import coplanar_couples
 from assur.derivation.mode_signs import matched_signs
 from assur.derivation.printed_derivation import PrintedDerivation, printed_derivation
 from assur.derivation.rank_losses import rank_losses
@@ -26,7 +27,7 @@ class Derivation:
         """The file `closed_form.py`. Errors: NotDerivedError."""
         signs = matched_signs(self.direct, self.inverse)
         formulas = ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors, signs.products)
-        plain = ClosedFormText(formulas)
+        plain = ClosedFormText(formulas, couples=coplanar_couples(self.inverse))
         lost = rank_losses(self.record, plain.text())
         return replace(plain, meanings=ClosedFormMeanings(formulas), constraint_singular=lost).text()
 

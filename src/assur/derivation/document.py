@@ -187,6 +187,11 @@ def _velocities(own: PrintedVelocities) -> Iterator[str]:
             formula = f"${factor.formula} = 0$: " if factor.formula else ""
             yield rf"\item[$\bullet$] {formula}{factor.meaning}{end}"
         yield r"\end{itemize}"
+    yield from (
+        rf"\noindent The platform is no longer kept from turning where {factor.meaning}.\par"
+        for factor in own.factors
+        if factor.kind == "constraint"
+    )
 
 
 def _example(own: PrintedProblem) -> Iterator[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.formula_latex import BREAK, COLUMN, width, wrapped
 from assur.derivation.printed_letters import input_letter, letter
@@ -21,7 +22,10 @@ LONG = 28
 
 @dataclass(frozen=True)
 class PrintedFactor:
-    """A factor: "parallel" or "serial", its formula unless that is long, and where it vanishes, in LaTeX."""
+    """A factor: its formula unless that is long, and where it vanishes, in LaTeX.
+
+    Its kind is "parallel" or "serial", or "constraint" of what is none of a determinant and lowers the closure's rank.
+    """
 
     kind: str
     formula: str
@@ -96,6 +100,8 @@ class _Velocities:
                 continue
             text = self.written.writer.text(-value if self._negative(value) else value)
             yield PrintedFactor(kind, text if width(text) <= LONG else "", self.written.phrase(meaning))
+        if coplanar_couples(self.written.solution):
+            yield PrintedFactor("constraint", "", COPLANAR)
 
 
 def _stem(latex: str) -> str:

@@ -26,6 +26,10 @@ FloatArray = NDArray[np.float64]
 STARTS, AROUND = 64, 0.05
 """Assemblies that are looked at: so many starts by chance, and as many around home, by this share of the way."""
 
+TO_ALL_DIGITS = 1e-11
+"""Share of the characteristic length within which loops close: where they only do so to `CLOSED`, after many steps, two
+roots nearly meet, and what the loops keep parallel is so to half of the digits."""
+
 NEAR_SINGULAR = 1e-3
 """Share of what the least singular value of the closure is around home, below which an assembly is nearly singular."""
 
@@ -52,7 +56,8 @@ def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
     far = by_chance(record, STARTS, rng)
     near = home + AROUND * (by_chance(record, STARTS, rng) - home)
     closed = assemble(record, np.concatenate([near, far]), far=True)
-    values = np.concatenate([home[None], closed.values[closed.closed]])
+    sound = closed.residual <= TO_ALL_DIGITS * characteristic_length(record)
+    values = np.concatenate([home[None], closed.values[sound]])
     at = motions(record, values, RANK_GAP)
     least = at.values[:, int(general(record).closure) - 1] / at.values[:, 0]
     regular = (least > NEAR_SINGULAR * general_share(record)) | (np.arange(len(values)) == 0)

@@ -265,12 +265,21 @@ def _along_motions(
     yield along
     if parts and 1 < rates.shape[1] <= MOST_RATES:
         own = replace(block, spins=along.block.spins if along else ())
-        for row in _directions(rates):
+        for row in _directions(rates[~_spinning(block, screws)]):
             yield _sign(own, screws, rates @ np.linalg.svd(row[None])[2][1:].T)
         for index in inputs:
             still = _motion_rates(block, screws, index)
             if 0 < still.shape[1] < rates.shape[1]:
                 yield _sign(own, screws, still)
+
+
+def _spinning(block: ClosingBlock, screws: ScrewColumns) -> NDArray[np.bool_]:
+    """Columns (k,) of a block that turn as a rod spins.
+
+    Rates at which one of them rests have that spin among them where it is across the column, which is no singularity.
+    """
+    spins = [spin_rates(spin, screws)[:, list(block.columns)] for spin in block.spins]
+    return np.any(spins, axis=(0, 1)) if spins else np.zeros(len(block.columns), dtype=bool)
 
 
 def _along_slides(block: ClosingBlock, screws: ScrewColumns) -> BlockSign | None:

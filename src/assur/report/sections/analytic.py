@@ -90,5 +90,7 @@ def _velocities(own: PrintedVelocities) -> Formulas:
                   for factor in own.factors if factor.kind == kind]  # fmt: skip
         where = f"vanishes where {'; '.join(places)}" if places else "never vanishes"
         said.append(f"{name}, the determinant of the {'left' if kind == 'parallel' else 'right'} side, {where}.")
+    loose = [factor.meaning for factor in own.factors if factor.kind == "constraint"]
+    said += [f"The platform is no longer kept from turning where {meaning}." for meaning in loose]
     lines = tuple(line for equation in own.equations for line in _lines(equation))
     return Formulas("Velocities and singular configurations", lines, " ".join(said))

@@ -50,7 +50,10 @@ class DerivedSet:
 
 @dataclass(frozen=True)
 class DerivedFactor:
-    """A factor of det Jp ("parallel") or det Jq ("serial") in the inverse problem's unknowns, and where it vanishes."""
+    """A factor of det Jp ("parallel") or det Jq ("serial") in the inverse problem's unknowns, and where it vanishes.
+
+    Beside them, of kind "constraint", what lowers the rank of the closure where it vanishes.
+    """
 
     name: str
     kind: str
