@@ -22,8 +22,8 @@ from assur.numerics import rotations
 from assur.singularity.examples import singular_examples as find_singular_examples
 
 DERIVED = ("zeng2019", "fivebar", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide", "tsai_platform",
-           "three_p2us", "three_crr", "tripteron", "planar_3rrr", "three_rrc")  # fmt: skip
-"""Not the 3-RPR: its derived form has legs of either sign, and so more branches than the written one."""
+           "three_p2us", "three_crr", "tripteron", "planar_3rpr", "planar_3rrr", "three_rrc")  # fmt: skip
+"""That of the 3-RPR has legs of either sign, and so more branches than the written one."""
 CLOSE = ("near a root that is nearly double the derived polynomial loses digits",
          ("test_every_direct_solution_closes_the_whole_joint_graph",))  # fmt: skip
 LACKING = {"three_rrc": CLOSE}

@@ -10,6 +10,7 @@ from assur.joint_graph.points import quantity
 from assur.kinematics import border
 from assur.kinematics.closure import closure_error
 from assur.kinematics.modes import mode_text, without_letter
+from assur.kinematics.naming import signs_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import search
 from assur.kinematics.status import NEAR_SINGULAR, Status, closed_form_of, relative_factors
@@ -30,6 +31,14 @@ def direct(mechanism, inputs):
     return mechanism.direct(inputs if closed_form_of(mechanism).direct else inputs[:SEARCHED])
 
 
+def mode_at(mechanism, problem, joints):
+    """The mode by the signs of the file's quantities; where the file has none, by those of closing blocks."""
+    named = mechanism.modes.assembly if problem == "direct" else mechanism.modes.working
+    if None in named.values():
+        return mode_text(signs_at(mechanism, problem, joints))
+    return mode_text([np.sign(quantity(mechanism, formula, joints)) for formula in named.values()])
+
+
 @pytest.fixture
 def answer(mechanism, regular):
     """The direct problem at the inputs of all regular solutions, solved once for all that is asked of it."""
@@ -41,10 +50,8 @@ def answer(mechanism, regular):
 def test_home_closes_and_is_in_the_default_modes(mechanism):
     length = characteristic_length(mechanism)
     assert closure_error(mechanism, mechanism.home_values) < 1e-11 * length
-    working = [np.sign(quantity(mechanism, f, mechanism.home_values)) for f in mechanism.modes.working.values()]
-    assembly = [np.sign(quantity(mechanism, f, mechanism.home_values)) for f in mechanism.modes.assembly.values()]
-    assert mode_text(working) == mechanism.modes.default_working
-    assert mode_text(assembly) == mechanism.modes.default_assembly
+    assert mode_at(mechanism, "inverse", mechanism.home_values) == mechanism.modes.default_working
+    assert mode_at(mechanism, "direct", mechanism.home_values) == mechanism.modes.default_assembly
 
 
 @pytest.mark.parametrize("name", [name for name in names() if table_place(load(name), "home") != ("home",)])
@@ -90,15 +97,14 @@ def test_declared_constant_orientation_is_constant(mechanism, regular):
 
 def test_modes_are_the_signs_of_the_named_quantities(mechanism, regular):
     for _, mode, _, joints in regular:
-        signs = [np.sign(quantity(mechanism, formula, joints)) for formula in mechanism.modes.working.values()]
-        assert mode_text(signs) == mode
+        assert mode_at(mechanism, "inverse", joints) == mode
 
 
 def test_assembly_modes_are_the_signs_of_the_named_quantities(mechanism, answer):
     for row, branch in zip(*np.nonzero(answer.exists & (answer.status == Status.regular)), strict=True):
         joints = answer.joints[row, branch]
-        signs = [np.sign(quantity(mechanism, formula, joints)) for formula in mechanism.modes.assembly.values()]
-        assert mode_text(signs) == without_letter(str(answer.labels[row, branch])) or not signs
+        mode = mode_at(mechanism, "direct", joints)
+        assert mode in ("", without_letter(str(answer.labels[row, branch])))
 
 
 def test_modes_tell_the_solutions_of_one_problem_apart(mechanism, regular):

@@ -89,4 +89,4 @@ def test_legs_of_either_sign_are_more_than_the_hand_written_form_has(tmp_path):
         assert np.allclose(own.inputs, others["+++"], rtol=0, atol=1e-9 * length)
         back = [[other.pose for other in direct(form, own.inputs, method="closed form")] for form in (written, derived)]
         assert len(back[0]) == len(back[1])
-        assert apart(written, *back) < 1e-7
+        assert apart(written, *back) < 1e-9

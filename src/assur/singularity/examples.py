@@ -80,7 +80,7 @@ class _Samples:
     def others(self, name: str) -> NDArray[np.int_]:
         """How many other factors vanish (N,)."""
         rest = [np.abs(value) <= FACTOR_TOLERANCE for key, value in self.factors.items() if key != name]
-        return np.asarray(np.sum(rest, axis=0))
+        return np.sum(rest, axis=0, dtype=int) if rest else np.zeros(len(self.poses), dtype=int)
 
 
 Way = tuple[FloatArray, FloatArray]
