@@ -205,6 +205,27 @@ def _on_short_link_of(elements: Sequence[Element], place: int) -> int | None:
     return None
 
 
+def short_side(elements: Sequence[Element], place: int) -> Vector | None:
+    """The axis of an R on a short link of a P(4R): along that link, so that it carries rods and not their offset.
+
+    >>> from assur.topology.notation import parse_chain
+    >>> short_side(parse_chain("P[x] R[y] P(4R)[z] R[y]").elements, 2)
+    (0.0, 1.0, 0.0)
+    """
+    hinges = (elements[beside] for beside in (place - 1, place + 1) if 0 <= beside < len(elements))
+    own = elements[place]
+    for hinge in hinges:
+        if (
+            isinstance(own, Parallelogram)
+            and isinstance(hinge, ChainJoint)
+            and hinge.type is REVOLUTE
+            and not hinge.general
+            and _hinged_across(own, hinge.axes[0])
+        ):
+            return hinge.axes[0]
+    return None
+
+
 def _hinged_across(element: Parallelogram, axis: Vector) -> bool:
     return element.kind == "4R" and not element.general and abs(dot(element.axis, axis)) < ACROSS
 

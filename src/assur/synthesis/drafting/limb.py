@@ -24,6 +24,7 @@ from assur.synthesis.drafting.layout import (
     across,
     neighbour,
     own_stations,
+    short_side,
     slides,
     stations,
 )
@@ -92,7 +93,7 @@ class LimbDrawing:
             if isinstance(element, InnerLoop):
                 self._loop(element, link, following, row, places[index], owned[index])
             elif isinstance(element, Parallelogram):
-                self._parallelogram(element, link, following, _known(ends[index]))
+                self._parallelogram(element, link, following, _known(ends[index]), short_side(elements, index))
             else:
                 self._joint(element, link, following, _known(ends[index]), _leg(elements, ends, index))
             link = following
@@ -183,12 +184,14 @@ class LimbDrawing:
         along_leg = leg if joint.general and self.layout.nice else None
         self._add(name, joint.type, (parent, child), ends.near, nice or joint.axes, pitch, along_leg)
 
-    def _parallelogram(self, element: Parallelogram, parent: str, child: str, ends: ElementEnds) -> None:
+    def _parallelogram(
+        self, element: Parallelogram, parent: str, child: str, ends: ElementEnds, hinge: Vector | None
+    ) -> None:
         letter = element.name
         axis = NAMED["y"] if element.general and self.layout.nice else element.axis
         rod = tuple(far - near for near, far in zip(ends.near_at, ends.far_at, strict=True))
         aside = across(axis, (rod[0], rod[1], rod[2]))
-        short = aside if element.kind == "4R" else axis
+        short = axis if element.kind != "4R" else hinge or aside
         width = f"{letter}_w"
         self._dimension(letter, Dimension(width, WIDTH, f"distance of the two rods of {letter}", "positive"))
         half = along(width, short, 0.5)
