@@ -41,6 +41,21 @@ def test_the_best_are_cut_off_where_asked(assur_cli):
     assert data["found"] > 3
 
 
+def test_fewer_limbs_than_freedoms_are_shown_by_families(assur_cli):
+    words = ("synthesize", "--motion", "2T1R", "--limbs", "2", "--max-joints", "3", "--max-members", "2")
+    run = assur_cli(*words, "--top", "2")
+    assert run.out.startswith("2T1R: ")
+    assert "the best 2 of" in run.out
+    assert "simplest" in run.out
+    assert "closes with Δ = " in " ".join(run.out.split())
+    assert max(map(len, run.out.splitlines())) <= 80
+    data = assur_cli(*words, "--json").json
+    assert [family["rank"] for family in data["families"]] == list(range(1, len(data["families"]) + 1))
+    listed = {rank: family["rank"] for family in data["families"] for rank in family["listed"]}
+    assert {item["rank"]: item["family"] for item in data["mechanisms"]} == listed
+    assert all(family["members"] >= len(family["listed"]) > 0 for family in data["families"])
+
+
 def test_nothing_found_says_which_coupling_degrees_there_are(assur_cli):
     run = assur_cli("synthesize", *SMALL, "--coupling", "0")
     assert run.code == 0
@@ -65,6 +80,8 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
     [
         (("--motion", "4T"), "unknown motion '4T'"),
         (("--limbs", "4"), "4 limbs for 3T"),
+        (("--limbs", "1"), "1 limbs for 3T"),
+        (("--max-members", "0"), "--max-members 0"),
         (("--limbs", "three"), "--limbs: 'three' is not a whole number"),
         (("--max-joints", "0"), "at most 0 joints"),
         (("--coupling", "1..0"), "--coupling 1..0"),

@@ -21,3 +21,9 @@ def in_legs():
 def small():
     """Three translations by limbs of three joints."""
     return synthesis("3T", max_joints=3)
+
+
+@pytest.fixture(scope="session")
+def of_two_limbs():
+    """Three translations by two limbs, of which one begins with an inner loop."""
+    return synthesis("3T", 2, 5, members=2)

@@ -13,7 +13,7 @@ from assur.topology.notation import parse_chain
 SPACE, PLANE = MOTIONS["3T"], MOTIONS["2T1R"]
 
 
-def key(text, motion=SPACE, driven=None):
+def key(text, motion=SPACE, driven=()):
     return limb_key(parse_chain(text), motion, driven)
 
 
@@ -54,8 +54,8 @@ def test_what_does(pair):
 
 
 def test_the_driven_joint_counts():
-    assert key("P[x] P[y] R[x] R[x]", driven=0) != key("P[x] P[y] R[x] R[x]", driven=1)
-    assert key("P[x] P[y] R[x] R[x]", driven=0) == key("P[y] P[x] R[x] R[x]", driven=1)
+    assert key("P[x] P[y] R[x] R[x]", driven=(0,)) != key("P[x] P[y] R[x] R[x]", driven=(1,))
+    assert key("P[x] P[y] R[x] R[x]", driven=(0,)) == key("P[y] P[x] R[x] R[x]", driven=(1,))
 
 
 def test_a_direction_that_the_motion_singles_out_counts():
@@ -84,6 +84,40 @@ def test_order_of_limbs_makes_no_difference():
     assert mechanism_key([first, first]) != mechanism_key([first, second])
 
 
-def test_an_inner_loop_is_refused():
-    with pytest.raises(UsageError, match="inner loop"):
-        key("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]")
+LOOP = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
+
+SAME_LOOPS = {
+    "order of branches": ("{P[y] R[x] | R[x] R[x] R[x]} R[x]", "{R[x] R[x] R[x] | P[y] R[x]} R[x]"),
+    "names of axes": (LOOP, "{P[z] R[y] R[y] | P[z] R[y] R[y]} R[-z] R[-z]"),
+    "order of P behind it": (
+        "{P[y] R[x] | P[y] R[x] R[x]} P[x] P[y] R[x]",
+        "{P[y] R[x] | P[y] R[x] R[x]} P[y] P[x] R[x]",
+    ),
+}
+
+DIFFERENT_LOOPS = {
+    "axes behind it": (LOOP, "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[z] R[z]"),
+    "rails at a right angle": (LOOP, "{P[y] R[x] R[x] | P[z] R[x] R[x]} R[y] R[y]"),
+    "where the loop ends": ("{P[y] R[x] R[x] | P[y] R[x] R[x]} P[x]", "{P[y] R[x] | P[y] R[x] R[x]} R[x] P[x]"),
+    "a series": (LOOP, "P[y] R[x] R[x] R[y] R[y]"),
+}
+
+
+@pytest.mark.parametrize("pair", SAME_LOOPS.values(), ids=SAME_LOOPS)
+def test_what_makes_no_difference_to_a_limb_with_an_inner_loop(pair):
+    assert key(pair[0]) == key(pair[1])
+
+
+@pytest.mark.parametrize("pair", DIFFERENT_LOOPS.values(), ids=DIFFERENT_LOOPS)
+def test_what_does_to_a_limb_with_an_inner_loop(pair):
+    assert key(pair[0]) != key(pair[1])
+
+
+def test_the_driven_joints_of_branches_count():
+    assert key(LOOP, driven=(0, 3)) != key(LOOP, driven=(0, 4))
+    assert key(LOOP, driven=(0, 4)) == key(LOOP, driven=(1, 3))
+
+
+def test_an_inner_loop_that_does_not_stand_first_is_refused():
+    with pytest.raises(UsageError, match="does not stand first"):
+        key("R[y] {P[y] R[x] R[x] | P[y] R[x] R[x]}")

@@ -13,7 +13,7 @@ from assur.topology.symbolic.union import serial
 SPACE, TURNING, PLANE = (MOTIONS[name] for name in ("3T", "3T1R", "2T1R"))
 
 
-def judged(text, motion=SPACE, driven=0):
+def judged(text, motion=SPACE, driven=(0,)):
     chain = parse_chain(text)
     limb = LimbType(chain, driven, limb_key(chain, motion, driven))
     return verdict(limb, motion, positions(motion, motion.dim))
@@ -39,7 +39,7 @@ def test_limbs_of_the_theory(text, t, r):
     found = judged(text).limb
     assert (found.known.poc.t, found.known.poc.r, found.known.poc.dim) == (t, r, t + r)
     assert found.known.route == "both"
-    assert len(found.chains) == len(found.motions) == len(found.twists) == 3
+    assert len(found.chains) == len(found.motions) == len(found.edges) == 3
 
 
 @pytest.mark.parametrize(
@@ -73,9 +73,10 @@ def test_idle_in_one_motion_and_not_in_another():
 def test_each_position_has_its_own_directions_and_lengths():
     found = judged("R[x] R[x] P(4R)[y] R[x]").limb
     assert [chain.text.split()[0] for chain in found.chains] == ["R[x]", "R[y]", "R[z]"]
-    for axis, twists in enumerate(found.twists):
-        assert twists[:, :3, 0] == pytest.approx(np.tile(np.eye(3)[axis], (3, 1)))
-    assert not np.allclose(found.twists[0][:, 3:, 1], np.roll(found.twists[1][:, 3:, 1], -1, axis=1))
+    twists = [edge.twists for (edge,) in found.edges]
+    for axis, placed in enumerate(twists):
+        assert placed[:, :3, 0] == pytest.approx(np.tile(np.eye(3)[axis], (3, 1)))
+    assert not np.allclose(twists[0][:, 3:, 1], np.roll(twists[1][:, 3:, 1], -1, axis=1))
 
 
 @pytest.mark.parametrize(("text", "needs"), [("C[x] R[x] R[x]", False), ("U[x,y] P[x] U[y,x]", True)])

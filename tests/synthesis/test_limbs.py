@@ -28,7 +28,7 @@ def test_no_limb_twice(at_base):
 
 
 def test_driven_at_the_base_is_the_first_joint(at_base):
-    assert {limb.driven for limb in at_base} == {0}
+    assert {limb.driven for limb in at_base} == {(0,)}
     assert {letters(limb)[0] for limb in at_base} == {"R", "P", "C"}
 
 
@@ -36,9 +36,10 @@ def test_driven_in_the_leg_is_the_first_p_between_two_that_turn():
     for limb in limb_types(SPACE, 5, "leg"):
         found = letters(limb)
         turning = [place for place, letter in enumerate(found) if letter not in ("P", "Pa")]
-        assert found[limb.driven] == "P"
-        assert turning[0] < limb.driven < turning[-1]
-        assert "P" not in found[turning[0] : limb.driven]
+        (driven,) = limb.driven
+        assert found[driven] == "P"
+        assert turning[0] < driven < turning[-1]
+        assert "P" not in found[turning[0] : driven]
 
 
 def test_no_more_joints_than_asked_for(at_base):
@@ -66,8 +67,8 @@ def test_a_limb_is_written_in_a_configuration_that_is_not_special():
 
 
 def test_the_column_of_the_driven_freedom():
-    limb = LimbType(parse_chain("U[x,y] P[x] U[y,x]"), 1, ())
-    assert limb.driven_column == 2
+    limb = LimbType(parse_chain("U[x,y] P[x] U[y,x]"), (1,), ())
+    assert limb.driven_columns == (2,)
 
 
 @pytest.mark.parametrize(
@@ -82,11 +83,11 @@ def test_no_useful_limb_is_missed(count, driven):
         place = _driven(text.split(), driven)
         if place is None or _is_cylinder(text.split(), place):
             continue
-        key = limb_key(chain, SPACE, place)
+        key = limb_key(chain, SPACE, (place,))
         if key in seen:
             continue
         seen.add(key)
-        answer = verdict(LimbType(chain, place, key), SPACE, [np.eye(3)])
+        answer = verdict(LimbType(chain, (place,), key), SPACE, [np.eye(3)])
         assert not answer.disagreement
         if answer.limb and key not in found:
             missed.append(text)

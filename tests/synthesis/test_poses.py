@@ -3,10 +3,12 @@ import pytest
 
 from assur.errors import UsageError
 from assur.numerics.rotations import about_axis
-from assur.synthesis.poses import is_special, twists_at_poses
+from assur.synthesis.poses import edges_at_poses, is_special, twists_at_poses
 from assur.topology.analysis import sample
 from assur.topology.notation import parse_chain
+from assur.topology.screws.edges import closure, null_basis
 from assur.topology.screws.placing import place
+from assur.topology.screws.twists import motion_space
 
 UNTURNED = np.broadcast_to(np.eye(3), (3, 3, 3))
 ABOUT_Z = about_axis(np.array([0.0, 0.0, 1.0]), np.array([0.3, -0.5, 0.7]))
@@ -21,6 +23,8 @@ KEPT = [
     "R[x] U[x,y] S",
     "C[x] S P[y]",
     "P[x] S C[x]",
+    "R[x] P(4S)[x]",
+    "P[x] P(2US)[y]",
 ]
 
 
@@ -53,7 +57,7 @@ def test_columns_stand_in_the_order_of_the_freedoms():
     assert found[:, :3, 2] == pytest.approx(np.zeros((3, 3)))
 
 
-@pytest.mark.parametrize("text", ["H[x] R[x]", "R[x] P(4S)[x]", "R[x]@A R[y]@A"])
+@pytest.mark.parametrize("text", ["H[x] R[x]", "R[x] {P[y] | P[y]}", "R[x]@A R[y]@A"])
 def test_what_cannot_be_placed_is_refused(text):
     with pytest.raises(UsageError, match="can be placed"):
         twists_at_poses(parse_chain(text), UNTURNED, np.random.default_rng(1))
@@ -62,3 +66,25 @@ def test_what_cannot_be_placed_is_refused(text):
 def test_configurations_as_written_may_be_special():
     assert is_special(parse_chain("P[x] P[y] R[x] P[y]"))
     assert not is_special(parse_chain("P[x] P[y] R[x] P[z]"))
+
+
+@pytest.mark.parametrize(
+    ("text", "freedoms"),
+    [
+        ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", 5),
+        ("{P[y] R[x] | P[y] R[x] R[x]} R[x] R[y] R[y]", 5),
+        ("{P[y] P(4R)[x] | P[y] P(4R)[x]} P[x]", 3),
+    ],
+)
+def test_a_limb_with_an_inner_loop_moves_as_the_placed_one_does(text, freedoms):
+    """Against the linkage of the same chain, by what each leaves of the platform's twists."""
+    chain = parse_chain(text)
+    edges = edges_at_poses(chain, UNTURNED, np.random.default_rng(1))
+    assert [(edge.parent, edge.child) for edge in edges] == [("base", "output link")] * 2 + [
+        ("output link", "platform")
+    ]
+    assert null_basis(closure(edges)).shape[-1] == freedoms
+    other = sample(place([chain]), "translation").space
+    found = motion_space(edges, "base", "platform")
+    assert found.shape[-1] == other.shape[-1] == freedoms
+    assert set(np.linalg.matrix_rank(found[:, :3], tol=1e-7)) == {np.linalg.matrix_rank(other[0, :3], tol=1e-7)}

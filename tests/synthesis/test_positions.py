@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from assur.synthesis.positions import in_words, positions, turned, upright
+from assur.synthesis.positions import in_words, placements, positions, turned, upright
 from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain, plain_text
 
 
-@pytest.mark.parametrize(("name", "limbs"), [("3T", 3), ("2T1R", 3), ("3T1R", 4), ("3T1R", 2)])
+@pytest.mark.parametrize(("name", "limbs"), [("3T", 3), ("2T1R", 3), ("3T1R", 4)])
 def test_positions_are_different_rotations(name, limbs):
     found = positions(MOTIONS[name], limbs)
     assert len(found) == limbs
@@ -32,10 +32,20 @@ def test_a_turned_chain_is_read_back_with_parallel_axes():
         assert np.cross(first, last) == pytest.approx(np.zeros(3), abs=1e-14)
 
 
+@pytest.mark.parametrize(("name", "count"), [("3T", 4), ("3T1R", 3), ("2T1R", 3)])
+def test_two_limbs_have_positions_to_choose_from(name, count):
+    found = positions(MOTIONS[name], 2)
+    assert placements(MOTIONS[name], 2) == tuple((0, other) for other in range(1, count))
+    assert len(found) == count
+    assert found[-1] == pytest.approx(found[0])
+    assert found[1] @ (1, 0, 0) == pytest.approx((0, 1, 0), abs=1e-14)
+
+
 def test_positions_in_words():
     assert in_words(MOTIONS["3T"], 3) == "each limb is the one before with x, y, z turned into y, z, x"
     assert in_words(MOTIONS["2T1R"], 3) == "each limb is the one before turned about z by 120°"
     assert in_words(MOTIONS["3T1R"], 4) == "each limb is the one before turned about z by 90°"
+    assert in_words(MOTIONS["3T1R"], 2).startswith("the second limb is as written turned about z by 90°, or beside")
 
 
 @pytest.mark.parametrize(

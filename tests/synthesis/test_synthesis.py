@@ -21,6 +21,9 @@ KNOWN_AT_BASE = [
     "orthoglide",
     "linear_delta_4r",
     "three_rrrp4r",
+    "delta_4s",
+    "linear_delta_4s",
+    "three_p2us",
 ]
 
 
@@ -30,7 +33,7 @@ def named(found, name):
 
 @pytest.mark.parametrize("name", KNOWN_AT_BASE)
 def test_known_mechanisms_with_actuators_at_the_base_are_found(in_space, name):
-    """The Delta with R-R-Pa-R limbs is tsai_platform; what the catalogue declares of it is what is found."""
+    """The Delta is tsai_platform, with rods delta_4s; what the catalogue declares of it is what is found."""
     (design,) = named(in_space, name)
     declared = load_topology(name).declared
     assert design.symmetric
@@ -38,6 +41,50 @@ def test_known_mechanisms_with_actuators_at_the_base_are_found(in_space, name):
     assert (design.known.poc.t, design.known.poc.r) == declared.poc
     assert (design.redundant.collapsed, design.redundant.joint_graph) == declared.redundant_constraints
     assert design.known.route == "both"
+
+
+def test_of_two_limbs_the_papers_mechanism_is_one_family_behind_those_that_are_not_coupled(of_two_limbs):
+    """The paper: F = 3 by loops with ξ = 3 and 5, κ = 1; 4 redundant constraints, 10 with its parallelograms."""
+    degrees = [family.designs[0].coupling_degree for family in of_two_limbs.families]
+    assert degrees == sorted(degrees)
+    (place,) = (
+        place for place, family in enumerate(of_two_limbs.families) if any(design.names for design in family.designs)
+    )
+    assert degrees[place] == 1
+    assert degrees[0] == 0
+    family = of_two_limbs.families[place]
+    (design,) = (design for design in family.designs if design.names)
+    assert design.names == ("zeng2019",)
+    assert [joints for joints, _ in design.actuated] == [1, 2, 2]
+    assert sorted(design.xi) == [3, 5]
+    assert (design.dof, design.redundant.collapsed, design.redundant.joint_graph) == (3, 4, 10)
+    whole = assur.topology("zeng2019")
+    assert (whole.dof, whole.coupling_degree, whole.redundant_constraints) == (3, 1, design.redundant)
+    assert family.members >= len(family.designs) == 3, "two simplest ones, and the known one"
+
+
+def test_all_of_a_family_count_alike(of_two_limbs, in_space):
+    for found in (of_two_limbs, in_space):
+        for family in found.families:
+            assert len({(design.coupling_degree, tuple(sorted(design.xi))) for design in family.designs}) == 1
+
+
+def test_every_mechanism_of_two_limbs_has_three_drives_on_the_base(of_two_limbs):
+    for design in of_two_limbs.designs:
+        assert len(design.actuated) == 3
+        for limb, joint in design.actuated:
+            loop = design.limbs[limb - 1].type.loop
+            assert joint == 1 or joint == len(loop.branches[0]) + 1
+
+
+@pytest.mark.deep
+def test_h4_is_found_among_two_limbs_of_four_freedoms():
+    found = synthesis("3T1R", 2, 4, members=2)
+    (design,) = named(found, "h4_robot")
+    declared = load_topology("h4_robot").declared
+    assert (design.dof, design.coupling_degree) == (declared.dof, declared.coupling_degree)
+    assert sorted(design.xi) == sorted(declared.xi)
+    assert design.redundant.collapsed == 0
 
 
 def test_the_three_upu_is_found_with_actuators_in_the_legs(in_legs):
@@ -95,18 +142,20 @@ def test_every_limb_of_a_mechanism_is_driven_where_asked(in_space, in_legs):
             assert place > 1
 
 
-@pytest.mark.parametrize("kind", ["equal limbs", "different limbs", "in legs"])
-def test_the_engine_of_whole_mechanisms_agrees(in_space, in_legs, kind):
+@pytest.mark.parametrize("kind", ["equal limbs", "different limbs", "in legs", "two limbs"])
+def test_the_engine_of_whole_mechanisms_agrees(in_space, in_legs, of_two_limbs, kind):
     """A placing of the whole linkage, moved along its own freedom, for a few mechanisms drawn at random."""
-    found = in_legs if kind == "in legs" else in_space
-    wanted = [design for design in found.designs if design.symmetric == (kind != "different limbs")]
+    found = {"in legs": in_legs, "two limbs": of_two_limbs}.get(kind, in_space)
+    equal = kind in ("equal limbs", "in legs")
+    wanted = [design for design in found.designs if design.symmetric == equal]
     for design in random.Random(kind).sample(wanted, 8):
         topology = assur.topology(
             [chain.text for chain in design.chains],
             actuate=[f"{limb}.{joint}" for limb, joint in design.actuated],
             mode=design.mode,
         )
-        assert (topology.dof, topology.coupling_degree) == (design.dof, design.coupling_degree), design.chains
+        dof = topology.dof - topology.internal_freedoms
+        assert (dof, topology.coupling_degree) == (design.dof, design.coupling_degree), design.chains
         assert sorted(topology.xi) == sorted(design.xi)
         assert topology.redundant_constraints == design.redundant
         assert (topology.poc.t, topology.poc.r, topology.poc.dim) == (3, 0, 3)
@@ -166,7 +215,10 @@ def test_four_limbs_for_three_translations_and_a_rotation():
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ({"motion": "3T", "limbs": 4}, "4 limbs for 3T; 3 are wanted"),
+        ({"motion": "3T", "limbs": 4}, "4 limbs for 3T; a limb has one actuator, or two"),
+        ({"motion": "3T1R", "limbs": 1}, "1 limbs for 3T1R"),
+        ({"limbs": 2, "actuators": "leg"}, "2 limbs for 3T with actuators in the legs"),
+        ({"members": 0}, "0 members of each family"),
         ({"max_joints": 0}, "at most 0 joints"),
         ({"coupling": (2, 1)}, r"coupling degrees 2\.\.1"),
         ({"coupling": (-1, 1)}, r"coupling degrees -1\.\.1"),
@@ -185,7 +237,7 @@ def test_unknown_names_are_refused():
 
 
 def test_limbs_that_are_too_short_give_nothing():
-    found = synthesis("3T", max_joints=2)
+    found = synthesis("3T", max_joints=1)
     assert (found.designs, found.limbs, found.tally.combinations) == ((), (), 0)
 
 

@@ -47,7 +47,7 @@ def test_a_single_r_turns_only_with_the_platform():
 
 
 def test_a_platform_that_turns_needs_an_axis_to_turn_about():
-    assert all("z" in {axis for letter, axis in word if letter in "RC"} for word in words(4, 4, always="z"))
+    assert all("z" in {axis for letter, axis in word if letter in "RCBD"} for word in words(4, 4, always="z"))
 
 
 @pytest.mark.parametrize("ball", [False, True])

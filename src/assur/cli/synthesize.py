@@ -41,10 +41,18 @@ def synthesize(
         str, Parameter(metavar="3T|3T1R|2T1R", help="T counts translations, R rotations about z; 3T if left out.")
     ] = "3T",
     limbs: Annotated[
-        str | None, Parameter(metavar="N", help="As many as the motion has freedoms: one actuator in each.")
+        str | None,
+        Parameter(
+            metavar="N",
+            help="As many as the motion has freedoms if left out, one actuator in each; with fewer, limbs that begin"
+            " with an inner loop have two.",
+        ),
     ] = None,
     max_joints: Annotated[
-        str, Parameter(metavar="N", help="Joints of a limb; U and P(4R) count as one. 5 if left out.")
+        str,
+        Parameter(
+            metavar="N", help="Joints of a limb; U and P(4R) count as one, and one branch of a loop. 5 if left out."
+        ),
     ] = "5",
     coupling: Annotated[
         str, Parameter(metavar="LOW..HIGH", help="Coupling degrees that are wanted, as 0..1 or 1; any if left out.")
@@ -56,6 +64,9 @@ def synthesize(
     top: Annotated[
         str, Parameter(metavar="N", help="How many to show and write; 20 if left out, with --json all.")
     ] = "",
+    max_members: Annotated[
+        str, Parameter(metavar="N", help="How many of a family of different limbs to list; 20 if left out.")
+    ] = "",
     yes: Annotated[bool, Parameter(help="Look at more than a million combinations, however long it takes.")] = False,
     toml: Annotated[
         str, Parameter(metavar="FOLDER", help="Write each as a topology file that `assur topology` reads.")
@@ -64,9 +75,11 @@ def synthesize(
 ) -> Outcome:
     """Find mechanisms with a wanted motion: type synthesis.
 
-    Limbs are series of R, P, C, U and P(4R), axes parallel or perpendicular to
-    each other; S stands in limbs that constrain nothing. Every mechanism that
-    is listed is confirmed by the rules of POC sets and by the rank of twists.
+    Limbs are series of R, P, C, U and parallelograms, axes parallel or
+    perpendicular to each other; S stands in limbs that constrain nothing. With
+    fewer limbs than freedoms some begin with an inner loop of a catalogue. A
+    family has limbs of the same motions. Every mechanism that is listed is
+    confirmed by the rules of POC sets and by the rank of twists.
     The best come first: smallest coupling degree, then fewest redundant
     constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
     Before it begins it says how many combinations there are, where these are
@@ -75,6 +88,7 @@ def synthesize(
     For example:
         assur synthesize --motion 3T --limbs 3 --max-joints 5 --symmetric
         assur synthesize --coupling 0..1 --top 40
+        assur synthesize --motion 3T --limbs 2 --coupling 0..1
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
     """
@@ -82,6 +96,7 @@ def synthesize(
     from assur.cli.paths import planned_folder
     from assur.synthesis.synthesis import Synthesis, TooManyError, synthesis
 
+    members = _members(max_members)
     number = None if limbs is None else whole_number(limbs, "--limbs")
     joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
@@ -93,7 +108,15 @@ def synthesize(
     ):
         try:
             found = synthesis(
-                motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step, most=most
+                motion,
+                number,
+                joints,
+                degrees,
+                symmetric=symmetric,
+                actuators=place,
+                members=members,
+                step=step,
+                most=most,
             )
         except TooManyError as error:
             hint = "ask for fewer joints or for --symmetric ones, or look at all of them with --yes"
@@ -136,6 +159,15 @@ def _count(text: str) -> int | None:
     return count
 
 
+def _members(text: str) -> int:
+    from assur.synthesis.assembly import MEMBERS
+
+    count = whole_number(text, "--max-members") if text else MEMBERS
+    if count < 1:
+        raise UsageError(f"--max-members {count}: one at least")
+    return count
+
+
 def _outcome(synthesis: Synthesis, top: int | None, folder: Path | None) -> Outcome:
     from assur.synthesis.answers import answers
 
@@ -156,21 +188,46 @@ def _write(synthesis: Synthesis, folder: Path, top: int) -> tuple[str, ...]:
 
 def _shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | None) -> Iterable[RenderableType]:
     numbered = list(enumerate(synthesis.designs, 1))
+    number = len(synthesis.families)
     yield heading(f"{synthesis.asked.motion.name}: {len(numbered)} mechanisms of {synthesis.asked.limbs} limbs")
     yield from _counts(synthesis, data)
-    if numbered:
+    if synthesis.asked.hybrid and number:
+        yield ""
+        yield heading(f"the best {top} of {number} families" if top < number else f"{number} families")
+        yield _families(synthesis, data, top)
+        yield from _reasons([(rank, family.designs[0]) for rank, family in enumerate(synthesis.families[:top], 1)])
+    elif numbered:
         yield ""
         yield heading(f"the best {top}" if top < len(numbered) else "ranked")
         yield _table(numbered[:top])
         yield from _reasons(numbered[:top])
-    known = [item for item in numbered if item[1].names]
+    known = [(f"{rank}", design) for rank, design in numbered if design.names]
+    if synthesis.asked.hybrid:
+        known = [
+            (f"{rank}", design)
+            for rank, family in enumerate(synthesis.families, 1)
+            for design in family.designs
+            if design.names
+        ]
     if known:
         yield ""
         yield heading("known mechanisms with these limbs")
-        yield _known(known)
+        yield _known(known, "family" if synthesis.asked.hybrid else "rank")
     if data.written is not ABSENT:
         yield ""
         yield f"written: {len(data.written)} files in {folder}"
+
+
+def _families(synthesis: Synthesis, data: SynthesisAnswer, top: int) -> RenderableType:
+    """One row for each family, with the limbs of its best mechanism."""
+    rows = []
+    for shown, family in list(zip(data.families, synthesis.families, strict=True))[:top]:
+        best = family.designs[0]
+        limbs = "\n".join([_limbs(best), *(f"({name})" for name in shown.names)])
+        numbers = (shown.rank, shown.members, shown.coupling_degree, shown.redundant_constraints, best.joints)
+        rows.append((*map(str, numbers), " ".join(map(str, best.xi)), limbs))
+    columns = ("rank", "members", "κ", "red.", "joints", "ξ", "simplest")
+    return table(columns, rows, left=("simplest",), wrap=("simplest",))
 
 
 def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
@@ -233,9 +290,9 @@ def _reasons(numbered: Sequence[Numbered]) -> Iterator[str]:
         yield f"{ranks[0]}{f'-{ranks[-1]}' if len(ranks) > 1 else ''}: {reason}."
 
 
-def _known(numbered: Sequence[Numbered]) -> RenderableType:
-    rows = [(str(rank), ", ".join(design.names), _limbs_alone(design)) for rank, design in numbered]
-    return table(("rank", "name", "limbs"), rows, left=("name", "limbs"))
+def _known(known: Sequence[tuple[str, Design]], column: str) -> RenderableType:
+    rows = [(rank, ", ".join(design.names), _limbs_alone(design)) for rank, design in known]
+    return table((column, "name", "limbs"), rows, left=("name", "limbs"))
 
 
 def _limbs_alone(design: Design) -> str:

@@ -11,11 +11,11 @@ from assur.results.answers.topology import (
     AskedSynthesis,
     CombinationCounts,
     DesignAnswer,
+    DesignFamily,
     DesignLimb,
     LimbTypeCounts,
     SynthesisAnswer,
 )
-from assur.synthesis.assembly import MEMBERS
 from assur.synthesis.designs import Design
 from assur.synthesis.positions import in_words
 from assur.synthesis.synthesis import ANY, Synthesis
@@ -31,6 +31,8 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
         top: how many mechanisms, the best ones; all where it is None.
     """
     asked, tally = synthesis.asked, synthesis.tally
+    ranks = {id(design): rank for rank, design in enumerate(synthesis.designs, 1)}
+    families = {id(design): rank for rank, family in enumerate(synthesis.families, 1) for design in family.designs}
     return SynthesisAnswer(
         asked=AskedSynthesis(
             asked.motion.name,
@@ -39,6 +41,7 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
             None if asked.coupling == ANY else asked.coupling,
             asked.symmetric,
             asked.actuators,
+            asked.members,
         ),
         positions=in_words(asked.motion, asked.limbs),
         limb_types=LimbTypeCounts(
@@ -52,14 +55,27 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
             {str(key): value for key, value in sorted(tally.coupling_degrees.items())},
             tally.tried,
             tally.unfixed,
-            MEMBERS,
+            asked.members,
         ),
         count=len(synthesis.designs),
-        mechanisms=tuple(_design(rank, design) for rank, design in enumerate(synthesis.designs[:top], 1)),
+        mechanisms=tuple(
+            _design(rank, families[id(design)], design) for rank, design in enumerate(synthesis.designs[:top], 1)
+        ),
+        families=tuple(
+            DesignFamily(
+                rank,
+                family.members,
+                tuple(ranks[id(design)] for design in family.designs),
+                family.designs[0].coupling_degree,
+                family.designs[0].redundant.collapsed,
+                tuple(name for design in family.designs for name in design.names),
+            )
+            for rank, family in enumerate(synthesis.families, 1)
+        ),
     )
 
 
-def _design(rank: int, design: Design) -> DesignAnswer:
+def _design(rank: int, family: int, design: Design) -> DesignAnswer:
     limbs = (
         DesignLimb(
             limb.chains[place].text,
@@ -68,10 +84,11 @@ def _design(rank: int, design: Design) -> DesignAnswer:
             limb.type.freedoms,
             limb.known.route,
         )
-        for place, limb in enumerate(design.limbs)
+        for limb, place in zip(design.limbs, design.places, strict=True)
     )
     return DesignAnswer(
         rank=rank,
+        family=family,
         names=tuple(design.names),
         chains=tuple(chain.text for chain in design.chains),
         actuate=tuple(f"{limb}.{joint}" for limb, joint in design.actuated),

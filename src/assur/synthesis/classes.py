@@ -11,9 +11,12 @@ from itertools import combinations_with_replacement, product
 import numpy as np
 
 from assur.synthesis.limb_motions import CandidateLimb
+from assur.topology.chains import InnerLoop
 from assur.topology.directions import span
+from assur.topology.symbolic.motion import Mode, Motion
 from assur.topology.symbolic.orientations import Orientations, orientations
 from assur.topology.symbolic.spans import Span
+from assur.topology.symbolic.union import serial
 
 Class = tuple[CandidateLimb, ...]
 """Limbs with the same motion, the simplest first."""
@@ -71,12 +74,26 @@ def _members(chosen: Sequence[Class]) -> Iterator[tuple[CandidateLimb, ...]]:
 
 
 def _motion_key(limb: CandidateLimb) -> object:
-    """Equal for limbs with the same motion in their first position."""
+    """Equal for limbs with the same motion in their first position, and with inner loops that count alike.
+
+    These do where the ways through their branches have the same motions, too.
+    """
     if not limb.motions:
         return limb.text
-    motion = limb.motions[0]
+    loop, *rest = limb.chains[0].elements
+    if not isinstance(loop, InnerLoop):
+        return _key_of(limb.motions[0])
+    mode: Mode = "free" if limb.motions[0].orientations.dim else "translation"
+    ways = [serial((*branch, *rest), mode) for branch in loop.branches]
+    if not all(isinstance(way, Motion) for way in ways):
+        return limb.text
+    keys = sorted((repr(_key_of(way)) for way in ways if isinstance(way, Motion)), key=str)
+    return (_key_of(limb.motions[0]), tuple(keys), sum(edge.freedoms for edge in limb.edges[0]))
+
+
+def _key_of(motion: Motion) -> tuple[object, ...]:
     taken = orientations(motion.limb.structure) if motion.limb and motion.rotations.turning else motion.orientations
-    return (limb.type.freedoms, _span_key(motion.translations), _span_key(motion.rotations), _axes_key(taken))
+    return (motion.freedoms, _span_key(motion.translations), _span_key(motion.rotations), _axes_key(taken))
 
 
 def _axes_key(taken: Orientations) -> tuple[object, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assur.model.topology_description import Mode
-from assur.results.answers.topology import RedundantConstraints
+from assur.results.answers.topology import Loop, RedundantConstraints
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.chains import Chain
 from assur.topology.counting.coupling import Decomposition
@@ -22,7 +22,8 @@ class Design:
     """A mechanism with the required motion, confirmed by both routes.
 
     Attributes:
-        limbs: in the order of their positions.
+        limbs: one beside the other.
+        places: the position of each.
         chains: the limbs as they stand, joints named through the mechanism.
         known: the platform's POC set, and by which routes.
         loops: in the order that attains the coupling degree.
@@ -32,6 +33,7 @@ class Design:
     """
 
     limbs: tuple[CandidateLimb, ...]
+    places: tuple[int, ...]
     chains: tuple[Chain, ...]
     known: Known
     loops: Decomposition
@@ -56,14 +58,15 @@ class Design:
 
     @property
     def parallelograms(self) -> int:
-        """Number of P(4R)."""
+        """Number of parallelograms."""
         return sum(limb.type.parallelograms for limb in self.limbs)
 
     @property
     def redundant(self) -> RedundantConstraints:
         """Redundant constraints, with a P(4R) as one joint and with its four R."""
         collapsed = sum(loop.redundant_constraints for loop in self.loops.loops)
-        return RedundantConstraints(collapsed, collapsed + PARALLELOGRAM_REDUNDANT * self.parallelograms)
+        inside = PARALLELOGRAM_REDUNDANT * sum(limb.type.hinged for limb in self.limbs)
+        return RedundantConstraints(collapsed, collapsed + inside)
 
     @property
     def symmetric(self) -> bool:
@@ -78,7 +81,7 @@ class Design:
     @property
     def actuated(self) -> tuple[tuple[int, int], ...]:
         """(limb, joint) of the driven joints, both counted from 1."""
-        return tuple((number, limb.type.driven + 1) for number, limb in enumerate(self.limbs, 1))
+        return tuple((number, place + 1) for number, limb in enumerate(self.limbs, 1) for place in limb.type.driven)
 
     @property
     def order(self) -> tuple[int, int, int, int, int, tuple[str, ...]]:
@@ -90,9 +93,16 @@ class Design:
     def reason(self) -> str:
         """Why it stands where it stands, in one sentence without a full stop."""
         first, degree, surplus = self.loops.loops[0], self.coupling_degree, self.redundant.collapsed
-        both = " and ".join(edge.removeprefix("limb ") for edge in first.joints)
         virtual = f"{_COUNTS[degree]} virtual variable{'' if degree == 1 else 's'}"
-        coupled = f"{virtual}, for limbs {both} close a loop with Δ = {first.delta:+d}"
+        coupled = f"{virtual}, for {_closing(first)} with Δ = {first.delta and f'{first.delta:+d}'}"
         exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
         return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
+
+
+def _closing(loop: Loop) -> str:
+    """Which limbs close a loop; its edges are called "limb 1", or "limb 1, branch 2" in a limb with an inner loop."""
+    limbs = dict.fromkeys(edge.removeprefix("limb ").partition(",")[0] for edge in loop.joints)
+    if len(limbs) == 1:
+        return f"the inner loop of limb {next(iter(limbs))} closes"
+    return f"limbs {' and '.join(limbs)} close a loop"

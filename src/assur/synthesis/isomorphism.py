@@ -11,14 +11,14 @@ reverse are different, because the actuator stands near the base.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, permutations, product
 from typing import Any
 
 from assur.errors import UsageError
 from assur.synthesis.required import RequiredMotion
-from assur.topology.chains import Chain, ChainJoint, Parallelogram
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import EXACT, Vector, parallel
 
 Key = tuple[Any, ...]
@@ -26,6 +26,10 @@ Key = tuple[Any, ...]
 
 BASE, TURNED = "base", "turned"
 """Frames: that of the base, and that of a platform which turns."""
+
+
+_Path = tuple[tuple[Element, str], ...]
+"""Joints in series, each with the mark of its actuator."""
 
 
 @dataclass(frozen=True)
@@ -45,16 +49,16 @@ class _Turn:
     axis: Vector | None
 
 
-def limb_key(chain: Chain, motion: RequiredMotion, driven: int | None = None) -> Key:
+def limb_key(chain: Chain, motion: RequiredMotion, driven: Collection[int] = ()) -> Key:
     """Canonical form of a limb whose platform has a wanted motion.
 
     Args:
-        chain: without inner loops.
+        chain: a series, or an inner loop and then a series; the order of the loop's branches makes no difference.
         motion: the platform's; directions that it singles out are the same in all limbs.
-        driven: index of the joint with the actuator, None if it does not matter.
+        driven: indices of the joints with actuators, branches flattened; none if they do not matter.
 
     Errors:
-        UsageError: the limb has an inner loop.
+        UsageError: the limb has another inner loop.
 
     Example: the order of neighbouring P joints makes no difference, nor do the names of the axes.
 
@@ -62,16 +66,55 @@ def limb_key(chain: Chain, motion: RequiredMotion, driven: int | None = None) ->
     >>> from assur.topology.notation import parse_chain
     >>> first, second = parse_chain("P[x] P[z] R[z] R[z]"), parse_chain("P[x] P[y] R[x] R[x]")
     >>> space = MOTIONS["3T"]
-    >>> limb_key(first, space) == limb_key(second, space), limb_key(first, space, 0) == limb_key(second, space, 0)
+    >>> limb_key(first, space) == limb_key(second, space), limb_key(first, space, (0,)) == limb_key(second, space, (0,))
     (True, False)
     """
-    turns, stretches = _cut(chain, driven)
-    frames = _frames(turns, motion)
-    if motion.axis is not None:
-        stretches[0].append(_Direction("", motion.axis))
-        stretches[-1].append(_Direction("", motion.axis))
-    kinds = tuple((turn.kind, turn.label) for turn in turns)
-    return (kinds, min(_described(ordered, frames) for ordered in _orders(stretches)))
+    branches, rest = _marked(chain, driven)
+    return min((_key_of(order, rest, motion) for order in permutations(branches)), key=repr)
+
+
+def _marked(chain: Chain, driven: Collection[int]) -> tuple[list[_Path], _Path]:
+    """The branches of an inner loop that stands first, of a series one without joints; and the rest; with marks."""
+    first = chain.elements[0]
+    loop = first.branches if isinstance(first, InnerLoop) else ((),)
+    branches, start = [], 0
+    for branch in (*loop, chain.elements[1:] if isinstance(first, InnerLoop) else chain.elements):
+        marks = ["*" if start + place in driven else "" for place in range(len(branch))]
+        branches.append(tuple(zip(branch, marks, strict=True)))
+        start += len(branch)
+    return branches[:-1], branches[-1]
+
+
+def _key_of(branches: Sequence[_Path], rest: _Path, motion: RequiredMotion) -> Key:
+    """The form with the branches in this order: the way through the first, then each other up to the output link."""
+    kinds: list[Key] = []
+    directions: list[list[_Direction]] = []
+    frames: list[str] = []
+    output = ""
+    for number, branch in enumerate(branches):
+        turns, stretches = _cut((*branch, *rest))
+        own = [_frame_of_path(frame, number) for frame in _frames(turns, motion)]
+        if motion.axis is not None:
+            stretches[0].append(_Direction("", motion.axis))
+            stretches[-1].append(_Direction("", motion.axis))
+        if len(branches) > 1:
+            ends, inside = _cut(branch)
+            last = own[len(inside) - 1]
+            if number:
+                own = [output if frame == last else frame for frame in own[: len(inside)]]
+                turns, stretches = ends, [[*stretches[0]] if not place else part for place, part in enumerate(inside)]
+            else:
+                output = last
+            kinds.append((len(ends), len(inside)))
+        kinds.append(tuple((turn.kind, turn.label) for turn in turns))
+        directions += stretches
+        frames += own
+    return (tuple(kinds), min(_described(ordered, frames) for ordered in _orders(directions)))
+
+
+def _frame_of_path(frame: str, number: int) -> str:
+    """Frames of the way through another branch are others, but for those of base and platform."""
+    return frame if frame in (BASE, TURNED) or not number else f"{frame}, branch {number}"
 
 
 def mechanism_key(limbs: Iterable[Key]) -> Key:
@@ -79,13 +122,12 @@ def mechanism_key(limbs: Iterable[Key]) -> Key:
     return tuple(sorted(limbs, key=repr))
 
 
-def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Direction]]]:
+def _cut(path: _Path) -> tuple[list[_Turn], list[list[_Direction]]]:
     """The turns, and the stretches before, between and behind them."""
     turns: list[_Turn] = []
     stretches: list[list[_Direction]] = [[]]
     labels: dict[str, int] = {}
-    for index, element in enumerate(chain.elements):
-        mark = "*" if index == driven else ""
+    for element, mark in path:
         if isinstance(element, Parallelogram):
             kind, label = f"P({element.kind})", ""
             axes: tuple[Vector, ...] = (element.axis,)
@@ -94,7 +136,7 @@ def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Dire
             if element.through:
                 raise UsageError("a limb with an axis through several labelled points has no canonical form")
         else:
-            raise UsageError("a limb with an inner loop has no canonical form")
+            raise UsageError("a limb with an inner loop that does not stand first has no canonical form")
         if kind in ("P", "P(4R)"):
             stretches[-1].append(_Direction(kind + mark, axes[0]))
             continue

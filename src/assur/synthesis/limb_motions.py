@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,14 +14,14 @@ from numpy.typing import NDArray
 
 from assur.joints.spherical import SPHERICAL
 from assur.synthesis.limbs import LimbType
-from assur.synthesis.poses import twists_at_poses
+from assur.synthesis.poses import edges_at_poses
 from assur.synthesis.positions import turned
 from assur.synthesis.required import RequiredMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
-from assur.topology.chains import Chain
+from assur.topology.chains import BASE, PLATFORM, Chain
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chain, plain_text
-from assur.topology.screws.edges import rank
+from assur.topology.screws.edges import Edge, along, closure, null_basis, rank
 from assur.topology.symbolic.motion import Motion, motion_of
 from assur.topology.symbolic.orientations import Orientations
 from assur.topology.symbolic.refusals import Refusal
@@ -47,14 +48,14 @@ class CandidateLimb:
         chains: the limb in each position.
         known: its POC set in the first position, O' on its last axis, and by which routes it is known.
         motions: what the rules say in each position; empty where they refuse.
-        twists: (N, 6, f) in each position, with other lengths of links in each.
+        edges: in each position, with other lengths of links in each; the driven columns are inputs.
     """
 
     type: LimbType
     chains: tuple[Chain, ...]
     known: Known
     motions: tuple[Motion, ...]
-    twists: tuple[FloatArray, ...]
+    edges: tuple[tuple[Edge, ...], ...]
 
     @property
     def text(self) -> str:
@@ -88,27 +89,27 @@ def verdict(limb: LimbType, motion: RequiredMotion, turns: Sequence[FloatArray])
         motion: required of the platform.
         turns: (3, 3) into each position.
     """
-    chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
-    rules = [_by_rules(chain, motion) for chain in chains]
+    chain = parse_chain(plain_text(turned(limb.chain, turns[0])))
+    first = _by_rules(chain, motion)
     orientations = np.concatenate([motion.orientations(ANGLES)] * len(turns))
-    twists = twists_at_poses(limb.chain, orientations, np.random.default_rng(crc32(repr(limb.key).encode())))
-    by_twist = _reason_by_twists(twists, limb, motion)
-    first = rules[0]
+    edges = edges_at_poses(limb.chain, orientations, np.random.default_rng(crc32(repr(limb.key).encode())))
+    moves = _moves(edges) if edges else None
+    by_twist = _reason_by_twists(moves, motion)
     if isinstance(first, Motion) and _reason_by_rules(first, motion) != by_twist:
         said = _reason_by_rules(first, motion) or "the motion"
-        return LimbVerdict(
-            disagreement=f"{chains[0].text}: the rules say {said}, the twists {by_twist or 'the motion'}"
-        )
-    if twists is None or by_twist:
+        return LimbVerdict(disagreement=f"{chain.text}: the rules say {said}, the twists {by_twist or 'the motion'}")
+    if edges is None or moves is None or by_twist:
         return LimbVerdict(reason=by_twist)
-    if _idles(limb, twists, motion):
+    if _idles(limb, moves, motion):
         return LimbVerdict(reason="an idle joint")
-    parts = np.split(twists, len(turns))
     try:
-        known = _known(chains[0].text, first, parts[0])
+        known = _known(chain.text, first, np.split(moves.platform, len(turns))[0])
     except RoutesDisagreeError as error:
         return LimbVerdict(disagreement=error.message)
-    placed = tuple(_turned_twists(part, turn) for part, turn in zip(parts, turns, strict=True))
+    chains = (chain, *(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns[1:]))
+    rules = (first, *(_by_rules(chain, motion) for chain in chains[1:]))
+    driven = _with_inputs(edges, limb.driven_columns)
+    placed = tuple(tuple(_placed(edge, place, turn, len(turns)) for edge in driven) for place, turn in enumerate(turns))
     return LimbVerdict(
         CandidateLimb(limb, chains, known, tuple(rule for rule in rules if isinstance(rule, Motion)), placed)
     )
@@ -132,21 +133,37 @@ def _reason_by_rules(limb_motion: Motion, motion: RequiredMotion) -> Reason:
     return "" if moves and turns else "not the motion"
 
 
-def _reason_by_twists(twists: FloatArray | None, limb: LimbType, motion: RequiredMotion) -> Reason:
-    if twists is None:
+@dataclass(frozen=True, eq=False)
+class _Moves:
+    """The limb's own motions at N poses: rates (N, c, F) of its joints, and the twists (N, 6, F) of the platform."""
+
+    rates: FloatArray
+    platform: FloatArray
+
+
+def _moves(edges: tuple[Edge, ...]) -> _Moves:
+    """What the loops of a limb leave its joints, and its platform."""
+    rates = null_basis(closure(edges))
+    return _Moves(rates, along(edges, BASE, PLATFORM) @ rates)
+
+
+def _reason_by_twists(moves: _Moves | None, motion: RequiredMotion) -> Reason:
+    if moves is None:
         return "not the motion"
-    if rank(twists) < limb.freedoms:
+    count, _, freedoms = moves.platform.shape
+    if rank(moves.platform) < freedoms:
         return "a passive freedom"
-    motion_twists = np.broadcast_to(motion.twists, (len(twists), 6, motion.dim))
-    return "" if rank(np.concatenate([twists, motion_twists], axis=-1)) == limb.freedoms else "not the motion"
+    motion_twists = np.broadcast_to(motion.twists, (count, 6, motion.dim))
+    return "" if rank(np.concatenate([moves.platform, motion_twists], axis=-1)) == freedoms else "not the motion"
 
 
-def _idles(limb: LimbType, twists: FloatArray, motion: RequiredMotion) -> bool:
-    """Whether a freedom stays at rest in all of the motion; of a ball joint, all three."""
-    rates = np.max(np.abs(np.linalg.pinv(twists) @ motion.twists), axis=(0, 2))  # (f,)
+def _idles(limb: LimbType, moves: _Moves, motion: RequiredMotion) -> bool:
+    """Whether a freedom stays at rest in all of the motion; of a ball joint or rods, all of them."""
+    moved = moves.rates @ np.linalg.pinv(moves.platform) @ motion.twists
+    rates = np.max(np.abs(moved), axis=(0, 2))  # (c,)
     parts = np.split(rates, np.cumsum([joint.freedoms for joint in limb.chain.joints])[:-1])
     return any(
-        np.max(part) < STILL if element.freedoms == SPHERICAL.freedoms else np.min(part) < STILL
+        np.max(part) < STILL if element.freedoms >= SPHERICAL.freedoms else np.min(part) < STILL
         for element, part in zip(limb.chain.joints, parts, strict=True)
     )
 
@@ -160,6 +177,19 @@ def _known(text: str, rules: Motion | Refusal, twists: FloatArray) -> Known:
     return Known(rules.poc, "both")
 
 
-def _turned_twists(twists: FloatArray, turn: FloatArray) -> FloatArray:
-    turned_parts = [np.einsum("ij,njf->nif", turn, part) for part in (twists[:, :3], twists[:, 3:])]
-    return np.concatenate(turned_parts, axis=1)
+def _with_inputs(edges: Sequence[Edge], columns: Sequence[int]) -> tuple[Edge, ...]:
+    """The edges with the driven ones of their columns, counted through all of them, as inputs."""
+    starts = np.cumsum([0, *(edge.freedoms for edge in edges)])
+    return tuple(
+        dataclasses.replace(
+            edge, inputs=tuple(column - int(start) for column in columns if 0 <= column - start < edge.freedoms)
+        )
+        for edge, start in zip(edges, starts[:-1], strict=True)
+    )
+
+
+def _placed(edge: Edge, place: int, turn: FloatArray, places: int) -> Edge:
+    """An edge at its share of the poses, turned into a position."""
+    part = np.split(edge.twists, places)[place]
+    turned_parts = [np.einsum("ij,njf->nif", turn, half) for half in (part[:, :3], part[:, 3:])]
+    return dataclasses.replace(edge, twists=np.concatenate(turned_parts, axis=1))

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
+
+import numpy as np
 
 from assur.joints.cylindrical import CYLINDRICAL
 from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
+from assur.synthesis.inner_loops import INNER_LOOPS
 from assur.synthesis.isomorphism import Key, limb_key
 from assur.synthesis.poses import is_special
-from assur.synthesis.positions import upright
+from assur.synthesis.positions import CYCLE, FloatArray, turned, upright
 from assur.synthesis.required import RequiredMotion
 from assur.synthesis.words import Word, crossing, words
-from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import NAMED, Vector
 
 Actuators = Literal["base", "leg"]
@@ -31,22 +34,32 @@ FREE_LIMB_JOINTS = 3
 
 _TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
 
+_KINDS: dict[str, ParallelogramKind] = {"A": "4R", "B": "4S", "D": "2US"}
+
+SAME_AXES: FloatArray = np.eye(3)
+
 _Group = tuple[str, str]
 """A joint and its axes: ("R", "x"), ("U", "xy"), ("A", "z") for a P(4R), ("S", "")."""
 
 
 @dataclass(frozen=True)
 class LimbType:
-    """A limb in its first position, and the index of the joint that is driven (of a C, its translation)."""
+    """A limb in its first position, and the indices of its driven joints (of a C, its translation)."""
 
     chain: Chain
-    driven: int
+    driven: tuple[int, ...]
     key: Key
 
     @cached_property
     def joints(self) -> int:
-        """Joints; a U and a P(4R) count as one."""
-        return len(self.chain.elements)
+        """Joints; a U and a parallelogram count as one."""
+        return len(self.chain.joints)
+
+    @property
+    def loop(self) -> InnerLoop | None:
+        """The inner loop that it begins with."""
+        first = self.chain.elements[0]
+        return first if isinstance(first, InnerLoop) else None
 
     @property
     def freedoms(self) -> int:
@@ -54,14 +67,19 @@ class LimbType:
         return sum(joint.freedoms for joint in self.chain.joints)
 
     @property
-    def driven_column(self) -> int:
-        """Place of the driven freedom among the freedoms of the limb; the translation of a C comes first."""
-        return sum(joint.freedoms for joint in self.chain.joints[: self.driven])
+    def driven_columns(self) -> tuple[int, ...]:
+        """Places of the driven freedoms among the freedoms of the limb; the translation of a C comes first."""
+        return tuple(sum(joint.freedoms for joint in self.chain.joints[:place]) for place in self.driven)
 
     @cached_property
     def parallelograms(self) -> int:
+        """Number of parallelograms."""
+        return sum(isinstance(joint, Parallelogram) for joint in self.chain.joints)
+
+    @cached_property
+    def hinged(self) -> int:
         """Number of P(4R)."""
-        return sum(isinstance(element, Parallelogram) for element in self.chain.elements)
+        return sum(isinstance(joint, Parallelogram) and joint.kind == "4R" for joint in self.chain.joints)
 
 
 def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) -> tuple[LimbType, ...]:
@@ -76,9 +94,50 @@ def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) ->
     >>> "C[x] R[x] R[x]" in found, "P[x] R[x] R[x] R[x]" in found
     (True, False)
     """
-    ways: dict[Key, list[tuple[Chain, int]]] = {}
-    for groups, driven in _candidates(motion, max_joints, actuators):
-        chain = Chain(tuple(_element(group) for group in groups))
+    serial = (
+        (Chain(tuple(_element(group) for group in groups)), (driven,))
+        for groups, driven in _candidates(motion, max_joints, actuators)
+    )
+    return _once(serial, motion)
+
+
+def hybrid_types(motion: RequiredMotion, max_joints: int) -> tuple[LimbType, ...]:
+    """Limbs that begin with an inner loop of the catalogue, each once; the first joints of its branches are driven.
+
+    Args:
+        motion: required of the platform.
+        max_joints: on the way through one branch.
+
+    >>> from assur.synthesis.required import MOTIONS
+    >>> from assur.topology.notation import plain_text
+    >>> found = {plain_text(limb.chain) for limb in hybrid_types(MOTIONS["3T"], 5)}
+    >>> "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]" in found
+    True
+    """
+    return _once(_hybrid_candidates(motion, max_joints), motion)
+
+
+def _hybrid_candidates(motion: RequiredMotion, max_joints: int) -> Iterator[tuple[Chain, tuple[int, ...]]]:
+    always = _always(motion)
+    for row in INNER_LOOPS:
+        loop = row.loop
+        room = max_joints - max(map(len, loop.branches))
+        starts = np.cumsum([0, *map(len, loop.branches[:-1])])
+        driven = tuple(int(start) for start in starts)
+        for turn in (SAME_AXES, CYCLE, CYCLE @ CYCLE) if always else (SAME_AXES,):
+            begun = row.turned_by(turn)
+            for freedoms in range(max(0, motion.dim - row.freedoms), FREE - row.freedoms):
+                for word in words(freedoms, room, always=always, begun=begun):
+                    for groups in _groupings(word):
+                        if len(groups) <= room and not _spoils_a_cylinder(groups, -1):
+                            rest = tuple(_element(group) for group in groups)
+                            yield Chain((*turned(Chain((loop,)), turn).elements, *rest)), driven
+
+
+def _once(candidates: Iterable[tuple[Chain, tuple[int, ...]]], motion: RequiredMotion) -> tuple[LimbType, ...]:
+    """Each limb once; of several ways to write it the first that is no special configuration."""
+    ways: dict[Key, list[tuple[Chain, tuple[int, ...]]]] = {}
+    for chain, driven in candidates:
         ways.setdefault(limb_key(chain, motion, driven), []).append((chain, driven))
     types = []
     for key, written in ways.items():
@@ -91,7 +150,7 @@ def _candidates(
     motion: RequiredMotion, max_joints: int, actuators: Actuators
 ) -> Iterator[tuple[tuple[_Group, ...], int]]:
     """Every way to write a limb, and the place of its driven joint."""
-    always = next((name for name, vector in NAMED.items() if vector == motion.axis), "")
+    always = _always(motion)
     for freedoms in range(motion.dim, FREE + 1):
         free = freedoms == FREE
         joints = min(max_joints, FREE_LIMB_JOINTS) if free else max_joints
@@ -100,6 +159,11 @@ def _candidates(
                 driven = _driven(groups, actuators)
                 if len(groups) <= joints and driven is not None and not _spoils_a_cylinder(groups, driven):
                     yield groups, driven
+
+
+def _always(motion: RequiredMotion) -> str:
+    """Name of the direction that a motion singles out."""
+    return next((name for name, vector in NAMED.items() if vector == motion.axis), "")
 
 
 def _groupings(word: Word, start: int = 0) -> Iterator[tuple[_Group, ...]]:
@@ -140,4 +204,5 @@ def _spoils_a_cylinder(groups: tuple[_Group, ...], driven: int) -> bool:
 def _element(group: _Group) -> Element:
     letter, names = group
     axes: tuple[Vector, ...] = tuple(NAMED[name] for name in names)
-    return Parallelogram("4R", axes[0]) if letter == "A" else ChainJoint(_TYPES[letter], axes)
+    kind = _KINDS.get(letter)
+    return Parallelogram(kind, axes[0]) if kind else ChainJoint(_TYPES[letter], axes)

@@ -2,7 +2,8 @@
 
 Links have random lengths and joints random values, subject to one thing only: the platform is turned as the
 required motion says. Where a limb stands on the base is free, so each can be put at a common pose of the platform,
-and limbs that were computed apart can be joined.
+and limbs that were computed apart can be joined. So are the branches of an inner loop: its output link is turned alike
+for all of them, and where they are hinged to it and to the base is free.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.numerics.least_squares import IndexArray, minimise
 from assur.numerics.rotations import about_axis, to_vector
-from assur.topology.chains import Chain, ChainJoint, Parallelogram
-from assur.topology.screws.edges import rank
+from assur.topology.chains import BASE, PLATFORM, Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.screws.edges import Edge, rank
 
 FloatArray = NDArray[np.float64]
 
@@ -30,12 +31,50 @@ TRIES = 4
 _Step = tuple[str, FloatArray]
 """An elementary motion: "R", "P", "A" (a P(4R)) with its axis (3,), or "link" (a link of random length)."""
 
+OUTPUT = "output link"
+"""The link that the branches of an inner loop lead to."""
+
+
+def edges_at_poses(chain: Chain, orientations: FloatArray, generator: np.random.Generator) -> tuple[Edge, ...] | None:
+    """A limb as edges at N poses of its platform: one if it is a series, else one a branch and one for the rest.
+
+    Args:
+        chain: as for `twists_at_poses`; an inner loop may stand first.
+        orientations: (N, 3, 3) of the platform, near the one as written.
+        generator: of the links' lengths and the joints' values.
+
+    Returns:
+        Edges with twists (N, 6, f), in the order of the chain's joints; None where these orientations are not reached.
+
+    Errors:
+        UsageError: a joint of another type, or an inner loop that does not stand first.
+    """
+    loop = chain.elements[0]
+    if not isinstance(loop, InnerLoop):
+        twists = twists_at_poses(chain, orientations, generator)
+        return None if twists is None else (Edge("limb", BASE, PLATFORM, twists),)
+    first, rest = loop.branches[0], chain.elements[1:]
+    steps = _steps((*first, *rest))
+    angles = _angles(_axes(steps), orientations, generator)
+    if angles is None:
+        return None
+    outputs = _orientation(_steps(first), angles)
+    whole = _twists(steps, angles, generator)
+    width = sum(_COLUMNS[kind] for kind, _ in _steps(first))
+    edges = [Edge("branch 1", BASE, OUTPUT, whole[..., :width])]
+    for number, branch in enumerate(loop.branches[1:], 2):
+        twists = twists_at_poses(Chain(branch), outputs, generator)
+        if twists is None:
+            return None
+        edges.append(Edge(f"branch {number}", BASE, OUTPUT, twists))
+    return (*edges, Edge("rest", OUTPUT, PLATFORM, whole[..., width:]))
+
 
 def twists_at_poses(chain: Chain, orientations: FloatArray, generator: np.random.Generator) -> FloatArray | None:
     """Twists (N, 6, f) of a limb at N poses of its platform, columns (omega, v at the base's origin) in the base frame.
 
     Args:
-        chain: R, P, C, U, S and P(4R) in series.
+        chain: R, P, C, U, S and parallelograms in series.
         orientations: (N, 3, 3) of the platform, near the one as written.
         generator: of the links' lengths and the joints' values.
 
@@ -53,9 +92,8 @@ def twists_at_poses(chain: Chain, orientations: FloatArray, generator: np.random
     >>> found.shape, np.linalg.matrix_rank(found).tolist()
     ((2, 6, 3), [3, 3])
     """
-    steps = _steps(chain)
-    axes = [axis for kind, axis in steps if kind == "R"]
-    angles = _angles(axes, orientations, generator)
+    steps = _steps(chain.elements)
+    angles = _angles(_axes(steps), orientations, generator)
     return None if angles is None else _twists(steps, angles, generator)
 
 
@@ -66,27 +104,55 @@ def is_special(chain: Chain) -> bool:
     >>> is_special(parse_chain("P[x] R[z] P[x]")), is_special(parse_chain("P[x] R[z] P[y]"))
     (True, False)
     """
-    steps = _steps(chain)
-    turns = sum(kind == "R" for kind, _ in steps)
+    steps = _steps(_one_path(chain))
+    turns = len(_axes(steps))
     generator = np.random.default_rng(turns)
     written, displaced = np.zeros((1, turns)), generator.uniform(-SPREAD, SPREAD, (1, turns))
     at_home, away = (rank(_twists(steps, angles, generator)) for angles in (written, displaced))
     return at_home < away
 
 
-def _steps(chain: Chain) -> list[_Step]:
+def _one_path(chain: Chain) -> tuple[Element, ...]:
+    """The joints on the way through the first branch of an inner loop that stands first."""
+    first = chain.elements[0]
+    return (*first.branches[0], *chain.elements[1:]) if isinstance(first, InnerLoop) else chain.elements
+
+
+def _axes(steps: Sequence[_Step]) -> list[FloatArray]:
+    """Axes about which the steps turn what is behind them."""
+    return [axis for kind, axis in steps if kind in _TURNING]
+
+
+def _orientation(steps: Sequence[_Step], angles: FloatArray) -> FloatArray:
+    """Orientation (N, 3, 3) of the link behind some steps, with the first of the angles."""
+    turned: FloatArray = np.broadcast_to(np.eye(3), (len(angles), 3, 3))
+    for index, axis in enumerate(_axes(steps)):
+        turned = turned @ about_axis(axis, angles[:, index])
+    return turned
+
+
+def _steps(elements: Sequence[Element]) -> list[_Step]:
     steps: list[_Step] = []
-    for element in chain.elements:
+    for element in elements:
         steps.append(("link", np.zeros(3)))
-        if isinstance(element, Parallelogram) and element.kind == "4R":
-            steps.append(("A", np.array(element.axis)))
+        if isinstance(element, Parallelogram):
+            steps.append((_PARALLELOGRAMS[element.kind], np.array(element.axis)))
         elif isinstance(element, ChainJoint) and not element.point and element.type.letter in _ELEMENTARY:
             axes = np.array(element.axes) if element.axes else np.eye(3)
             steps += [(kind, axes[place]) for kind, place in _ELEMENTARY[element.type.letter]]
         else:
-            raise UsageError("only R, P, C, U, S and P(4R) without points in common can be placed here")
+            raise UsageError("only R, P, C, U, S and parallelograms without points in common can be placed here")
     return [*steps, ("link", np.zeros(3))]
 
+
+_PARALLELOGRAMS = {"4R": "A", "4S": "B", "2US": "B", "4U": "D"}
+"""As a step: "A" swings in its plane, "B" and "D" over a sphere and about their short links, "B" about its rods too."""
+
+_COLUMNS = {"link": 0, "R": 1, "P": 1, "A": 1, "B": 4, "D": 3}
+"""Freedoms of a step."""
+
+_TURNING = ("R", "B", "D")
+"""Steps that turn what is behind them; about its rods a parallelogram turns it at no finite angle."""
 
 _ELEMENTARY: dict[str, tuple[tuple[str, int], ...]] = {
     "R": (("R", 0),),
@@ -128,15 +194,38 @@ def _twists(steps: Sequence[_Step], angles: FloatArray, generator: np.random.Gen
         if kind == "link":
             point = point + generator.normal(size=(count, 3))
             continue
-        if kind == "A":
-            inside = np.cross(axis, generator.normal(size=(count, 3)))
-            line = (turned @ (inside / np.linalg.norm(inside, axis=1, keepdims=True))[..., None])[..., 0]
+        line = turned @ axis
+        if kind in "ABD":
+            columns += _of_parallelogram(kind, line, point, generator.normal(size=(count, 3)))
+        elif kind == "P":
+            columns.append(_translation(line))
         else:
-            line = turned @ axis
-        if kind == "R":
-            columns.append(np.concatenate([line, np.cross(point, line)], axis=1))
+            columns.append(_rotation(line, point))
+        if kind in _TURNING:
             turned = turned @ about_axis(axis, angles[:, place])
             place += 1
-        else:
-            columns.append(np.concatenate([np.zeros((count, 3)), line], axis=1))
     return np.stack(columns, axis=-1)
+
+
+def _rotation(line: FloatArray, point: FloatArray) -> FloatArray:
+    return np.concatenate([line, np.cross(point, line)], axis=1)
+
+
+def _translation(line: FloatArray) -> FloatArray:
+    return np.concatenate([np.zeros_like(line), line], axis=1)
+
+
+def _of_parallelogram(kind: str, hinge: FloatArray, point: FloatArray, rods: FloatArray) -> list[FloatArray]:
+    """Columns of a parallelogram whose rods have some direction (N, 3); hinged R keep it across their axis.
+
+    With hinges it swings in its plane. With S, U and S, or U joints it swings over a sphere, and its far link turns
+    about the direction of the near one; only with S at one end of each rod, or both, can it begin to turn about the
+    rods.
+    """
+    if kind == "A":
+        swing = np.cross(hinge, rods)
+        return [_translation(swing / np.linalg.norm(swing, axis=1, keepdims=True))]
+    along = rods / np.linalg.norm(rods, axis=1, keepdims=True)
+    across = np.cross(along, hinge)
+    columns = [_translation(across), _translation(np.cross(along, across)), _rotation(hinge, point)]
+    return [*columns, _rotation(along, point)] if kind == "B" else columns

@@ -32,15 +32,36 @@ def positions(motion: RequiredMotion, limbs: int) -> tuple[FloatArray, ...]:
     Where the motion singles out no direction, x -> y -> z -> x, as on three walls of a room; otherwise around its axis,
     evenly, but two limbs at a right angle.
 
+    Two limbs that are not as many as the motion's freedoms have further ones to choose from; the last is the first
+    again, for limbs side by side.
+
     >>> from assur.synthesis.required import MOTIONS
     >>> [tuple(map(float, turn @ (1, 0, 0))) for turn in positions(MOTIONS["3T"], 3)]
     [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
     """
+    choice = _may_choose(motion, limbs)
     if motion.axis is None:
-        return tuple(np.linalg.matrix_power(CYCLE, index) for index in range(limbs))
+        count = limbs + 2 if choice else limbs
+        return tuple(np.linalg.matrix_power(CYCLE, index) for index in range(count))
     step = math.radians(_step(limbs))
     turns = [about_axis(np.array(motion.axis), np.array(step * index)) for index in range(limbs)]
-    return tuple(np.round(turn, DIGITS) for turn in turns)
+    return tuple(np.round(turn, DIGITS) for turn in [*turns, *turns[:choice]])
+
+
+def placements(motion: RequiredMotion, limbs: int) -> tuple[tuple[int, ...], ...]:
+    """Ways to give each limb one of the positions; the first that gives the motion is taken.
+
+    >>> from assur.synthesis.required import MOTIONS
+    >>> placements(MOTIONS["3T"], 3), placements(MOTIONS["3T"], 2)
+    (((0, 1, 2),), ((0, 1), (0, 2), (0, 3)))
+    """
+    if not _may_choose(motion, limbs):
+        return (tuple(range(limbs)),)
+    return tuple((0, other) for other in range(1, len(positions(motion, limbs))))
+
+
+def _may_choose(motion: RequiredMotion, limbs: int) -> bool:
+    return limbs == 2 < motion.dim
 
 
 def _step(limbs: int) -> float:
@@ -55,6 +76,9 @@ def in_words(motion: RequiredMotion, limbs: int) -> str:
     >>> in_words(MOTIONS["2T1R"], 3)
     'each limb is the one before turned about z by 120°'
     """
+    if _may_choose(motion, limbs):
+        turned = "with x, y, z turned into y, z, x or z, x, y" if motion.axis is None else "turned about z by 90°"
+        return f"the second limb is as written {turned}, or beside the first, whichever first gives the motion"
     if motion.axis is None:
         return "each limb is the one before with x, y, z turned into y, z, x"
     return f"each limb is the one before turned about z by {_step(limbs):g}°"
@@ -98,14 +122,14 @@ def upright(chain: Chain, motion: RequiredMotion) -> Chain:
 def _turning_axes(chain: Chain) -> list[Vector]:
     """Different directions of the joints that turn."""
     axes: list[Vector] = []
-    for element in chain.elements:
-        if isinstance(element, ChainJoint) and element.type.turning:
-            axes += [axis for axis in element.axes if not any(parallel(axis, other) for other in axes)]
+    for joint in chain.joints:
+        if isinstance(joint, ChainJoint) and joint.type.turning:
+            axes += [axis for axis in joint.axes if not any(parallel(axis, other) for other in axes)]
     return axes
 
 
 def _first_axis(chain: Chain) -> Vector:
-    first = chain.elements[0]
+    first = chain.joints[0]
     return first.axes[0] if isinstance(first, ChainJoint) else NAMED["x"]
 
 
@@ -115,6 +139,6 @@ def _with_axes(chain: Chain, changed: Callable[[Vector], Vector]) -> Chain:
             return dataclasses.replace(old, axis=changed(old.axis))
         if isinstance(old, ChainJoint):
             return dataclasses.replace(old, axes=tuple(changed(axis) for axis in old.axes))
-        return old
+        return dataclasses.replace(old, branches=tuple(tuple(map(element, branch)) for branch in old.branches))
 
     return Chain(tuple(element(old) for old in chain.elements))

@@ -5,20 +5,21 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations_with_replacement
 from typing import get_args
 
 from assur.errors import Interrupted, UnknownNameError, UsageError
-from assur.synthesis.assembly import DesignsOfClasses, Range, assemble
-from assur.synthesis.classes import Class, are_equal, classes
+from assur.synthesis.assembly import MEMBERS, MechanismFamily, Range, Sought, assemble, mechanism
+from assur.synthesis.classes import Class, are_equal, classes, number_of_members
 from assur.synthesis.designs import Design
-from assur.synthesis.isomorphism import mechanism_key
+from assur.synthesis.isomorphism import Key
 from assur.synthesis.known_mechanisms import known_mechanisms
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
-from assur.synthesis.limbs import Actuators, limb_types
-from assur.synthesis.positions import positions
+from assur.synthesis.limbs import Actuators, hybrid_types, limb_types
+from assur.synthesis.positions import placements, positions
 from assur.synthesis.required import RequiredMotion, motion_named
 from assur.synthesis.tally import Tally, total
 from assur.topology.agreement import RoutesDisagreeError
@@ -39,15 +40,17 @@ class SynthesisQuestion:
     """What was asked for; see `synthesis`."""
 
     motion: RequiredMotion
+    limbs: int
     max_joints: int
     coupling: tuple[int, int]
     symmetric: bool
     actuators: Actuators
+    members: int
 
     @property
-    def limbs(self) -> int:
-        """Number of limbs: one actuator in each."""
-        return self.motion.dim
+    def hybrid(self) -> bool:
+        """Whether some limbs begin with an inner loop and have two actuators."""
+        return self.limbs < self.motion.dim
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,14 +62,20 @@ class Synthesis:
         limbs: limb types that have the motion, the simplest first in each class of equal motion.
         left_out: number of limb types that have not, by the reason.
         tally: of the combinations.
-        designs: the mechanisms, best first.
+        families: the mechanisms by the classes of their limbs, the family of the best one first.
     """
 
     asked: SynthesisQuestion
     limbs: tuple[CandidateLimb, ...]
     left_out: Counter[str]
     tally: Tally
-    designs: tuple[Design, ...]
+    families: tuple[MechanismFamily, ...]
+
+    @cached_property
+    def designs(self) -> tuple[Design, ...]:
+        """The mechanisms, best first."""
+        every = (design for family in self.families for design in family.designs)
+        return tuple(sorted(every, key=lambda design: design.order))
 
 
 def ignored(done: int, whole: int) -> None:
@@ -81,22 +90,25 @@ def synthesis(
     *,
     symmetric: bool = False,
     actuators: Actuators = "base",
+    members: int = MEMBERS,
     step: Step = ignored,
     most: int | None = None,
 ) -> Synthesis:
     """Mechanisms with a wanted motion, each confirmed by rules and by twists.
 
-    Limbs are series of R, P, C, U and P(4R) with axes parallel or perpendicular to each other, and S in limbs that
-    constrain nothing; U counts as one joint. Every limb has one actuator, so there are as many limbs as freedoms.
+    Limbs are series of R, P, C, U and parallelograms with axes parallel or perpendicular to each other, and S in limbs
+    that constrain nothing; U counts as one joint. A series has one actuator. With fewer limbs than freedoms, limbs
+    that begin with an inner loop of a catalogue have two, one in each of its branches.
 
     Args:
         motion: "3T", "3T1R" or "2T1R"; T counts translations, R rotations (about z).
-        limbs: number of limbs, by default the number of freedoms.
-        max_joints: of a limb.
+        limbs: number of limbs, by default the number of freedoms; half of it, rounded up, is the least.
+        max_joints: of a limb, on the way through one branch of its inner loop.
         coupling: least and largest coupling degree, Eq. (6).
         symmetric: only mechanisms of equal limbs. Without it, also the simplest of those with different limbs.
         actuators: "base" where the first joint of each limb is driven (R, P or the translation of C), "leg" where it is
             the first P between two joints that turn.
+        members: of each family of different limbs so many are listed, the simplest, and known ones.
         step: called with (steps done, steps in all).
         most: combinations at most; any number where None.
 
@@ -110,69 +122,84 @@ def synthesis(
         >>> [design.names for design in found.designs if "three_crr" in design.names]
         [('three_crr',)]
     """
-    asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators)
+    asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators, members)
     usable, left_out, disagreements = _limbs(asked, step)
     classes_of_limbs = classes(usable)
-    count = number_of_combinations(len(usable), asked.limbs, symmetric=symmetric)
+    chosen = _sets_of_classes(classes_of_limbs, asked)
+    count = sum(map(number_of_members, chosen)) if not symmetric else sum(len(some[0]) for some in chosen)
     if most is not None and count > most:
         raise TooManyError(
             f"{count} combinations of {len(usable)} limb types, and {most} are looked at unasked",
             hint="ask for fewer joints or for equal limbs, or allow more by `most`",
         )
-    chosen = [
-        some
-        for some in combinations_with_replacement(classes_of_limbs, asked.limbs)
-        if not symmetric or are_equal(some)
-    ]
-    parts: list[DesignsOfClasses] = []
+    known = known_mechanisms(asked.motion)
+    sought = Sought(
+        asked.motion, Range(*coupling), placements(asked.motion, asked.limbs), symmetric, members, tuple(known)
+    )
+    families: list[MechanismFamily] = []
     try:
         for done, some in enumerate(chosen):
             step(len(chosen) + done, 2 * len(chosen))
-            parts.append(assemble(some, asked.motion, Range(*coupling), symmetric=symmetric))
+            families.append(assemble(some, sought))
     except KeyboardInterrupt:
-        raise Interrupted(_answer(asked, classes_of_limbs, left_out, parts, disagreements)) from None
-    return _answer(asked, classes_of_limbs, left_out, parts, disagreements)
+        raise Interrupted(_answer(asked, classes_of_limbs, left_out, families, disagreements)) from None
+    return _answer(asked, classes_of_limbs, left_out, families, disagreements)
+
+
+def _sets_of_classes(every: Sequence[Class], asked: SynthesisQuestion) -> list[tuple[Class, ...]]:
+    """One class for each limb, with as many drives as the motion has freedoms."""
+    return [
+        some
+        for some in combinations_with_replacement(every, asked.limbs)
+        if sum(len(members[0].type.driven) for members in some) == asked.motion.dim
+        and (are_equal(some) or not asked.symmetric)
+    ]
 
 
 def _answer(
     asked: SynthesisQuestion,
     classes_of_limbs: Sequence[Class],
     left_out: Counter[str],
-    parts: Sequence[DesignsOfClasses],
+    families: Sequence[MechanismFamily],
     disagreements: tuple[str, ...],
 ) -> Synthesis:
     """What was found in the sets of classes that were looked at."""
-    tally = total(part.tally for part in parts)
+    tally = total(family.tally for family in families)
     disagreements += tally.disagreements
     if disagreements:
         raise RoutesDisagreeError("; ".join(disagreements), hint="assur has an error; please report these chains")
-    designs = sorted((design for part in parts for design in part.designs), key=lambda design: design.order)
+    known = known_mechanisms(asked.motion)
+    named = [_named(family, known) for family in families if family.designs]
     return Synthesis(
         asked=asked,
         limbs=tuple(limb for members in classes_of_limbs for limb in members),
         left_out=left_out,
         tally=tally,
-        designs=_named(designs, asked.motion),
+        families=tuple(sorted(named, key=lambda family: family.designs[0].order)),
     )
 
 
-def number_of_combinations(types: int, limbs: int, *, symmetric: bool) -> int:
-    """Mechanisms of so many limbs of so many types: their number is told by a formula before one is looked at.
-
-    >>> number_of_combinations(170, 3, symmetric=False), number_of_combinations(170, 3, symmetric=True)
-    (833340, 170)
-    """
-    return types if symmetric else math.comb(types + limbs - 1, limbs) if types else 0
-
-
 def _question(
-    motion: str, limbs: int | None, max_joints: int, coupling: tuple[int, int], symmetric: bool, actuators: Actuators
+    motion: str,
+    limbs: int | None,
+    max_joints: int,
+    coupling: tuple[int, int],
+    symmetric: bool,
+    actuators: Actuators,
+    members: int,
 ) -> SynthesisQuestion:
     target = motion_named(motion)
-    if limbs is not None and limbs != target.dim:
+    number = target.dim if limbs is None else limbs
+    least = max(2, math.ceil(target.dim / 2))
+    if not least <= number <= target.dim:
         raise UsageError(
-            f"{limbs} limbs for {target.name}; {target.dim} are wanted, one actuator in each",
-            hint=f"give {target.dim}, or leave the number out",
+            f"{number} limbs for {target.name}; a limb has one actuator, or two with an inner loop",
+            hint=f"give {least} to {target.dim}, or leave the number out for {target.dim}",
+        )
+    if number < target.dim and actuators == "leg":
+        raise UsageError(
+            f"{number} limbs for {target.name} with actuators in the legs; with inner loops they stand on the base",
+            hint=f"leave out the place of the actuators, or ask for {target.dim} limbs",
         )
     if max_joints < 1:
         raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
@@ -180,12 +207,16 @@ def _question(
         raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
     if actuators not in get_args(Actuators):
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
-    return SynthesisQuestion(target, max_joints, coupling, symmetric, actuators)
+    if members < 1:
+        raise UsageError(f"{members} members of each family; one at least")
+    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members)
 
 
 def _limbs(asked: SynthesisQuestion, step: Step) -> tuple[list[CandidateLimb], Counter[str], tuple[str, ...]]:
     """Limbs with the motion, how many have it not and why, and those on which the routes disagree."""
     types = limb_types(asked.motion, asked.max_joints, asked.actuators)
+    if asked.hybrid:
+        types += hybrid_types(asked.motion, asked.max_joints)
     turns = positions(asked.motion, asked.limbs)
     verdicts: list[LimbVerdict] = []
     try:
@@ -207,10 +238,11 @@ def _sorted(verdicts: Sequence[LimbVerdict]) -> tuple[list[CandidateLimb], Count
     )
 
 
-def _named(designs: list[Design], motion: RequiredMotion) -> tuple[Design, ...]:
-    """The designs with the names of known mechanisms that have the same limbs."""
-    known = known_mechanisms(motion)
-    keys = [mechanism_key(limb.type.key for limb in design.limbs) for design in designs]
-    return tuple(
-        dataclasses.replace(design, names=known.get(key, ())) for design, key in zip(designs, keys, strict=True)
+def _named(family: MechanismFamily, known: Mapping[Key, tuple[str, ...]]) -> MechanismFamily:
+    """The family with the names of known mechanisms that have the same limbs."""
+    return dataclasses.replace(
+        family,
+        designs=tuple(
+            dataclasses.replace(design, names=known.get(mechanism(design.limbs), ())) for design in family.designs
+        ),
     )

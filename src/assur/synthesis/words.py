@@ -16,31 +16,36 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 Letter = tuple[str, str]
-"""A joint and its axis: ("R", "x"), ("P", "y"), ("A", "z") for a P(4R), ("C", "x"); ("S", "") for a ball joint."""
+"""A joint and its axis: ("R", "x"), ("P", "y"), ("C", "x"); A is a P(4R), B a P(4S), D a P(2US); S has none."""
 
 Word = tuple[Letter, ...]
 
-FREEDOMS = {"R": 1, "P": 1, "A": 1, "C": 2, "S": 3}
+FREEDOMS = {"R": 1, "P": 1, "A": 1, "C": 2, "S": 3, "B": 4, "D": 4}
 AXES = ("x", "y", "z")
 ROTATIONS = 3
 """A motion has at most three independent rotations, and one direction of R at most three that are not passive."""
 
 
 @dataclass(frozen=True)
-class _State:
+class Begun:
     """A word as far as it goes.
 
     `known` are the directions that have been used, `slides` the P joints ("Py", "Az") since the last turn, `blocks` the
     runs of parallel R as (axis, number).
     """
 
-    word: Word
-    known: frozenset[str]
-    slides: tuple[str, ...]
-    blocks: tuple[tuple[str, int], ...]
+    word: Word = ()
+    known: frozenset[str] = frozenset()
+    slides: tuple[str, ...] = ()
+    blocks: tuple[tuple[str, int], ...] = ()
 
 
-def words(freedoms: int, joints: int, *, always: str = "", ball: bool = False) -> Iterator[Word]:
+NOTHING = Begun()
+
+
+def words(
+    freedoms: int, joints: int, *, always: str = "", ball: bool = False, begun: Begun = NOTHING
+) -> Iterator[Word]:
     """Words with so many freedoms and no passive or idle freedom that shows in the word itself.
 
     Where the platform turns, three directions of R are left out: they would turn it in every way, and only an
@@ -51,25 +56,26 @@ def words(freedoms: int, joints: int, *, always: str = "", ball: bool = False) -
         joints: at most so many joints, if neighbouring R that cross are taken together as a U.
         always: the axis about which the platform turns, known everywhere; "" where it keeps its orientation.
         ball: whether the word has one S; without it, none.
+        begun: what stands before the word, as an inner loop, and does not count.
 
     Example: three independent translations without parallelograms are PPP.
 
     >>> [word for word in words(3, 3) if all(letter == "P" for letter, _ in word)]
     [(('P', 'x'), ('P', 'y'), ('P', 'z'))]
     """
-    start = _State((), frozenset(always), (), ())
+    start = replace(begun, known=begun.known | frozenset(always))
     for word, blocks in _grow(start, freedoms, ball):
         if (ball or _can_turn(blocks, always)) and _fewest_joints(word) <= joints:
             yield word
 
 
-def _grow(state: _State, rest: int, ball: bool) -> Iterator[tuple[Word, tuple[tuple[str, int], ...]]]:
+def _grow(state: Begun, rest: int, ball: bool) -> Iterator[tuple[Word, tuple[tuple[str, int], ...]]]:
     """Words, each with its blocks since the S, if it has one."""
     if rest == 0:
         if not ball:
             yield state.word, state.blocks
         return
-    for letter in ("R", "P", "A", "C"):
+    for letter in ("R", "P", "A", "C") if ball else ("R", "P", "A", "C", "B", "D"):
         if FREEDOMS[letter] > rest - (FREEDOMS["S"] if ball else 0):
             continue
         for axis in _choices(state.known):
@@ -77,7 +83,7 @@ def _grow(state: _State, rest: int, ball: bool) -> Iterator[tuple[Word, tuple[tu
             if grown is not None:
                 yield from _grow(grown, rest - FREEDOMS[letter], ball)
     if ball and rest >= FREEDOMS["S"]:
-        grown = _State((*state.word, ("S", "")), state.known, (), ())
+        grown = Begun((*state.word, ("S", "")), state.known, (), ())
         yield from _grow(grown, rest - FREEDOMS["S"], False)
 
 
@@ -87,9 +93,11 @@ def _choices(known: frozenset[str]) -> list[str]:
     return [axis for axis in AXES if axis in known or axis in free[:1]]
 
 
-def _with(state: _State, letter: str, axis: str) -> _State | None:
+def _with(state: Begun, letter: str, axis: str) -> Begun | None:
     """One joint more, or None where it brings a passive freedom."""
     word = (*state.word, (letter, axis))
+    if letter in "BD":
+        return None if any(before in "BD" for before, _ in state.word) else _behind_rods(state, word, axis)
     slides = (*state.slides, f"A{axis}" if letter == "A" else f"P{axis}")
     if letter != "R" and not _independent(slides):
         return None
@@ -100,7 +108,13 @@ def _with(state: _State, letter: str, axis: str) -> _State | None:
     blocks = (*blocks[:-1], (axis, blocks[-1][1] + 1)) if again else (*blocks, (axis, 1))
     if len(blocks) > ROTATIONS or blocks[-1][1] > ROTATIONS:
         return None
-    return _State(word, state.known | {axis}, (f"P{axis}",) if letter == "C" else (), blocks)
+    return Begun(word, state.known | {axis}, (f"P{axis}",) if letter == "C" else (), blocks)
+
+
+def _behind_rods(state: Begun, word: Word, axis: str) -> Begun:
+    """A word with a parallelogram of rods, whose far link may turn about the axis without any other joint's help."""
+    before = state.blocks[:-1] if state.blocks and state.blocks[-1][0] == axis else state.blocks
+    return Begun(word, state.known | {axis}, (), (*before, (axis, ROTATIONS)))
 
 
 @cache

@@ -328,6 +328,7 @@ class AskedSynthesis:
     coupling: tuple[int, int] | None
     symmetric: bool
     actuators: str
+    max_members: int
 
 
 @dataclass(frozen=True)
@@ -364,9 +365,10 @@ class DesignLimb:
 
 @dataclass(frozen=True)
 class DesignAnswer:
-    """A mechanism with the motion."""
+    """A mechanism with the motion, and the rank of its family."""
 
     rank: int
+    family: int
     names: Names
     chains: Names
     actuate: Names
@@ -385,8 +387,26 @@ class DesignAnswer:
 
 
 @dataclass(frozen=True)
+class DesignFamily:
+    """Mechanisms whose limbs have the same motions, and inner loops that count alike.
+
+    Attributes:
+        members: so many of them have the motion; the drives are tried where they are listed.
+        listed: ranks of those that are listed, the best first.
+        names: known mechanisms among these.
+    """
+
+    rank: int
+    members: int
+    listed: tuple[int, ...]
+    coupling_degree: int
+    redundant_constraints: int
+    names: Names
+
+
+@dataclass(frozen=True)
 class SynthesisAnswer(Answer):
-    """The mechanisms with a motion, the best first; `written` are their files."""
+    """The mechanisms with a motion, the best first, and their families; `written` are their files."""
 
     asked: AskedSynthesis
     positions: str
@@ -394,4 +414,5 @@ class SynthesisAnswer(Answer):
     combinations: CombinationCounts
     count: int = named("found")
     mechanisms: tuple[DesignAnswer, ...] = ()
+    families: tuple[DesignFamily, ...] = ()
     written: Names | Absent = ABSENT
