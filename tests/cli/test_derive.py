@@ -133,7 +133,7 @@ def test_a_cosine_of_a_number_is_no_part_of_a_closed_form(assur_cli, tmp_path):
 
 def test_the_document_is_written_also_of_a_problem_that_resists(tmp_path, assur_cli):
     target = tmp_path / "d.tex"
-    ran = assur_cli("derive", "three_rps", "--latex", str(target), "--json")
+    ran = assur_cli("derive", "gough_stewart", "--latex", str(target), "--json")
     assert (ran.code, ran.json["latex"]) == (5, str(target))
     text = target.read_text(encoding="ascii")
     assert "Not derived: platform" in text

@@ -101,5 +101,5 @@ def _below(leading):
 
 
 def test_links_that_belong_together_are_named_and_not_solved():
-    with pytest.raises(NotDerivedError, match="platform turns in space, held by leg1"):
-        analytic_solution(load_record("three_rps"), "direct")
+    with pytest.raises(NotDerivedError, match="platform turns in space, held by B1"):
+        analytic_solution(load_record("gough_stewart"), "direct")

@@ -26,6 +26,7 @@ from assur.derivation.linear_span import NoIdentityError
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
+from assur.derivation.platform_rotation import posed_entries
 from assur.derivation.proof import proof
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reasons import left_out, sentences
@@ -35,12 +36,13 @@ from assur.derivation.solution_count import SECONDS, solution_count
 from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
-from assur.results.answers.answer import ABSENT
+from assur.results.answers.answer import ABSENT, Absent
 from assur.results.answers.derivation import (
     CountedSolutions,
     DerivationAnswer,
     DerivedCase,
     DerivedChoice,
+    DerivedComponents,
     DerivedFactor,
     DerivedProblem,
     DerivedReason,
@@ -153,11 +155,25 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         problem, "derived", "", solution.branches, True, tuple(_reasons(solution.placed)), (*record.generalised,),
         _sets(solution.sets, ReachMeanings(solution)), {own.symbol.name: str(own.formula) for own in solution.lengths},
         dict(_results(solution)), solution.group.sentence if solution.group else "",
-        square_roots="yes" if solution.eliminant is None
-        else "no" if solution.group is not None and solution.group.no_tower else "open",
+        square_roots="yes" if solution.eliminant is None else "no" if _no_tower(solution) else "open",
+        components=_components(solution),
         left_out=(*left_out(solution.placed),),
         vanish_at_home=tuple(map(str, conditions_at_home(solution))),
     )  # fmt: skip
+
+
+def _no_tower(solution: AnalyticSolution) -> bool:
+    """Whether it is proved that square roots alone do not solve it."""
+    return any(own is not None and own.no_tower for own in (solution.components, solution.group))
+
+
+def _components(solution: AnalyticSolution) -> DerivedComponents | Absent:
+    own = solution.components
+    if own is None:
+        return ABSENT
+    degrees = tuple(part.degree for part in own.parts)
+    unknown = None if own.unknown is None else own.unknown.name
+    return DerivedComponents(unknown, degrees, own.solutions, own.sentence)
 
 
 def _sets(parts: Sequence[SolvedSet], reach: ReachMeanings | None = None) -> tuple[DerivedSet, ...]:
@@ -238,6 +254,7 @@ def _results(solution: AnalyticSolution) -> Iterator[tuple[str, str]]:
         yield from ((own.symbol.name, str(own.formula)) for own in solution.lengths)
     else:
         yield from zip("xyz", map(str, solution.point), strict=True)
+        yield from ((name, str(formula)) for name, formula in posed_entries(solution))
 
 
 def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
@@ -299,6 +316,8 @@ def _end(part: DerivedProblem) -> Iterator[RenderableType]:
         yield "every step is an identity, in the data (--json): assur verify checks them"
     if part.proved:
         yield f"proved by factors modulo primes: {part.proved}"
+    if part.components is not ABSENT:
+        yield f"proved by exact factors: {part.components.proved}"
 
 
 def _cases(part: DerivedProblem) -> Iterator[RenderableType]:

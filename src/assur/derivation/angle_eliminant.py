@@ -9,7 +9,7 @@ from functools import cached_property
 import sympy
 
 from assur.derivation.definitions import Definition
-from assur.derivation.linear import Form
+from assur.derivation.linear import Form, value_of
 from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.trigonometric import homogeneous
 
@@ -27,6 +27,8 @@ class AngleEliminant:
         quadric: that vanishes beside the lines, with a symbol for each product of unknowns; {} where none is left.
         spare: how often 1 + t^2 divides it, where cosine, sine and 1 are 1 - t^2, 2 t and 1 + t^2.
         degree: in t, without these.
+        divisors: of steps and of what follows those by which it is divided at a root.
+        backward: polynomials in entries and steps of which unknowns are quotients at a root.
     """
 
     direction: UnknownDirection
@@ -37,6 +39,13 @@ class AngleEliminant:
     quadric: Form = field(default_factory=dict)
     spare: int = 0
     degree: int = 0
+    divisors: tuple[sympy.Symbol, ...] = ()
+    backward: tuple[Definition, ...] = ()
+
+    @property
+    def left_quadric(self) -> sympy.Expr:
+        """What vanishes beside the lines, 0 where nothing is left."""
+        return value_of(self.quadric)
 
     def program(self, one: sympy.Expr) -> tuple[Definition, ...]:
         """Entries and steps, as homogeneous polynomials in the cosine, the sine and what stands for 1."""
@@ -44,12 +53,22 @@ class AngleEliminant:
             self._programs[one] = tuple(self._program(one))
         return self._programs[one]
 
+    def backward_program(self, one: sympy.Expr) -> tuple[Definition, ...]:
+        """The same of what follows at a root."""
+        degrees = dict.fromkeys(self.direction.unknowns, 1)
+        whole = [*self._homogeneous((*self.entries, *self.steps, *self.backward), degrees, one)]
+        return tuple(whole[len(self.entries) + len(self.steps) :])
+
     @cached_property
     def _programs(self) -> dict[sympy.Expr, tuple[Definition, ...]]:
         return {}
 
     def _program(self, one: sympy.Expr) -> Iterator[Definition]:
-        degrees = dict.fromkeys(self.direction.unknowns, 1)
-        for own in (*self.entries, *self.steps):
+        yield from self._homogeneous((*self.entries, *self.steps), dict.fromkeys(self.direction.unknowns, 1), one)
+
+    def _homogeneous(
+        self, definitions: tuple[Definition, ...], degrees: dict[sympy.Symbol, int], one: sympy.Expr
+    ) -> Iterator[Definition]:
+        for own in definitions:
             formula, degrees[own.symbol] = homogeneous(own.formula, degrees, one)
             yield Definition(own.symbol, formula, own.meaning)

@@ -15,8 +15,10 @@ WHOLE = sympy.Symbol("1 + t^2")
 """Stands for 1 in homogeneous polynomials."""
 
 
-def residues(eliminant: AngleEliminant, witness: ModularWitness) -> dict[sympy.Symbol, fmpz_mod_poly]:
-    """Each entry and each step as a polynomial in t, with the powers of 1 + t^2 that it has.
+def residues(
+    eliminant: AngleEliminant, witness: ModularWitness, backward: bool = False
+) -> dict[sympy.Symbol, fmpz_mod_poly]:
+    """Each entry and each step as a polynomial in t, with the powers of 1 + t^2 that it has; and what follows of them.
 
     Errors:
         NoResidueRootError: what is known is no residue, but one times the root of -1.
@@ -24,7 +26,7 @@ def residues(eliminant: AngleEliminant, witness: ModularWitness) -> dict[sympy.S
     ring = fmpz_mod_poly_ctx(fmpz_mod_ctx(witness.field.p))
     cosine, sine = eliminant.direction.unknowns
     known: dict[sympy.Symbol, Any] = {cosine: ring([1, 0, -1]), sine: ring([0, 2]), WHOLE: ring([1, 0, 1])}
-    for own in eliminant.program(WHOLE):
+    for own in (*eliminant.program(WHOLE), *(eliminant.backward_program(WHOLE) if backward else ())):
         known[own.symbol] = ring([0]) + _value(own.formula, known, witness)
     return known
 

@@ -80,7 +80,7 @@ def closed_conditions(solution: AnalyticSolution) -> Iterator[ClosedCondition]:
 
 def _cases(solution: AnalyticSolution, place: int, part: SolvedSet, condition: sympy.Expr) -> Iterator[ClosedCondition]:
     left = ClosedCondition(condition, (), "open")
-    if part.eliminant and condition == part.eliminant.steps[0].symbol:
+    if part.eliminant and condition in part.eliminant.divisors:
         yield ClosedCondition(condition, (), "apart")
         return
     components = [_factors(own, part) for own in _squares(condition, part)]

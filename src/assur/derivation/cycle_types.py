@@ -68,7 +68,15 @@ def findings(degree: int, types: dict[CycleType, int]) -> GroupFindings:
     False
     """
     shares = [_sums(lengths) for lengths in types]
-    irreducible = bool(types) and not any(all(k in own for own in shares) for k in range(1, degree))
+    return _of(degree, types, bool(types) and not any(all(k in own for own in shares) for k in range(1, degree)))
+
+
+def of_irreducible(degree: int, types: dict[CycleType, int]) -> GroupFindings:
+    """The same of a polynomial that is known to be irreducible."""
+    return _of(degree, types, True)
+
+
+def _of(degree: int, types: dict[CycleType, int], irreducible: bool) -> GroupFindings:
     odd = any(length & (length - 1) for lengths in types for length in lengths)
     long = {length for lengths in types for length in lengths if isprime(length) and 2 * length > degree}
     mixed = len(factorint(degree)) > 1

@@ -16,6 +16,7 @@ import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.angle_residues import cycle_type, polynomial, residues, some_root
+from assur.derivation.circle_pairs import CirclePair, circle_pair
 from assur.derivation.cycle_types import CycleType, findings
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import SolvedSet
@@ -43,6 +44,17 @@ class _Leftover:
     values: Mapping[sympy.Symbol, Form]
     conditions: tuple[sympy.Expr, ...]
 
+    def eliminant(self, names: FreeNames) -> AngleEliminant:
+        """The polynomial that is left."""
+        return _eliminant(self, names)
+
+    def values_of(self, eliminant: AngleEliminant) -> Iterator[Definition]:
+        """The unknowns by Cramer's rule, and what follows of them."""
+        for k, unknown in enumerate(self.unknowns, start=1):
+            yield Definition(unknown, eliminant.steps[k].symbol / eliminant.steps[0].symbol)
+        for unknown, form in self.values.items():
+            yield Definition(unknown, value_of(form))
+
 
 def eliminated(
     directions: Sequence[UnknownDirection],
@@ -61,13 +73,13 @@ def eliminated(
     """
     names = FreeNames(taken)
     known, equations = _named(equations, witness, names, () if carrier is None else carrier.unknowns)
-    choices: list[tuple[tuple[int, bool, int], _Leftover, AngleEliminant]] = []
+    choices: list[tuple[tuple[int, bool, int], _Leftover | CirclePair, AngleEliminant]] = []
     why = ["there is no circle among them"]
     for base in sorted(directions, key=lambda own: platform not in own.links):
         if base.kind == "circle" and carrier in (None, base):
             try:
-                left = _leftover(base, directions, equations, witness)
-                rough = _shaped(_eliminant(left, FreeNames(set(taken))), witness)
+                left = _left_by(base, directions, equations, witness)
+                rough = _shaped(left.eliminant(FreeNames(set(taken))), witness)
             except NotDerivedError as error:
                 why.append(str(error))
                 continue
@@ -77,20 +89,20 @@ def eliminated(
     if not choices:
         raise NotDerivedError(why[-1])
     _, left, rough = min(choices, key=lambda choice: choice[0])
-    plain = _eliminant(left, names)
+    plain = left.eliminant(names)
     eliminant = replace(_with_names(plain, known, names, witness), spare=rough.spare, degree=rough.degree)
     for own in eliminant.known[len(known) :]:
         _define(own, witness)
     witness.drawn(left.base.unknowns, lambda: some_root(eliminant, witness))
-    determinant = [own.symbol for own in eliminant.steps[:1]] if left.unknowns else []
-    after = [*eliminant.entries, *eliminant.steps[:-1], *_values(left, eliminant)]
+    values = left.values_of(eliminant)
+    after = [*eliminant.entries, *eliminant.steps[:-1], *eliminant.backward, *values]
     for own in after:
         _define(own, witness)
     return SolvedSet(
         (left.base, *(direction for direction in directions if direction is not left.base)),
         tuple(equations),
         left.lines,
-        tuple(dict.fromkeys((*left.conditions, *determinant))),
+        tuple(dict.fromkeys((*left.conditions, *eliminant.divisors))),
         (*eliminant.known, *after),
         (),
         (),
@@ -176,6 +188,18 @@ def _leftover(
     return _Leftover(base, left, tuple(lines), quadric, values, tuple(conditions))
 
 
+def _left_by(
+    base: UnknownDirection, directions: Sequence[UnknownDirection], equations: Sequence[Form], witness: ModularWitness
+) -> _Leftover | CirclePair:
+    """What a circle leaves that is taken as known. Errors: NotDerivedError."""
+    try:
+        return _leftover(base, directions, equations, witness)
+    except NotDerivedError:
+        if not any(own.kind == "side" for own in directions):
+            raise
+        return circle_pair(base, directions, equations, witness)
+
+
 def _kept(
     others: Sequence[UnknownDirection], equations: Sequence[Form], witness: ModularWitness
 ) -> tuple[sympy.Symbol, ...]:
@@ -231,7 +255,10 @@ def _eliminant(left: _Leftover, names: FreeNames) -> AngleEliminant:
             homogeneous[unknown] = steps[-1].symbol
     last = _determinant(rows) if not left.quadric else _at(left, homogeneous, one, entry)
     steps.append(Definition(names.named("elim"), last))
-    return AngleEliminant(left.base, (), tuple(entries.values()), tuple(steps), left.unknowns, left.quadric)
+    divisors = tuple(own.symbol for own in steps[:1]) if count else ()
+    return AngleEliminant(
+        left.base, (), tuple(entries.values()), tuple(steps), left.unknowns, left.quadric, divisors=divisors
+    )
 
 
 def _at(
@@ -258,8 +285,8 @@ def _shaped(eliminant: AngleEliminant, witness: ModularWitness) -> AngleEliminan
         raise NotDerivedError(f"with {name} taken as known, nothing is left that says where it is")
     if own.gcd(own.derivative()).degree() > 0:
         raise NotDerivedError(f"the polynomial in {name} has multiple roots")
-    known = residues(eliminant, witness)
-    if len(eliminant.steps) > 1 and own.gcd(known[eliminant.steps[0].symbol]).degree() > 0:
+    known = residues(eliminant, witness, backward=True)
+    if any(own.gcd(known[divisor]).degree() > 0 for divisor in eliminant.divisors):
         raise NotDerivedError(f"the polynomial in {name} has roots that say nothing")
     return replace(eliminant, spare=spare, degree=own.degree())
 
@@ -286,12 +313,4 @@ def _with_names(
         formula = sum((name(factor) * cosine**i * sine**j for (i, j), factor in terms.items()), ZERO)
         entries.append(Definition(own.symbol, formula))
     new = (Definition(symbol, formula) for formula, symbol in given.items())
-    return replace(plain, known=(*known, *new), entries=tuple(entries))
-
-
-def _values(left: _Leftover, eliminant: AngleEliminant) -> Iterator[Definition]:
-    """The unknowns by Cramer's rule, and what follows of them."""
-    for k, unknown in enumerate(left.unknowns, start=1):
-        yield Definition(unknown, eliminant.steps[k].symbol / eliminant.steps[0].symbol)
-    for unknown, form in left.values.items():
-        yield Definition(unknown, value_of(form))
+    return replace(plain, known=(*known, *plain.known, *new), entries=tuple(entries))

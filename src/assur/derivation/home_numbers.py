@@ -6,7 +6,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from assur.derivation.loop_equations import LoopEquations
+from assur.derivation.loop_equations import SIDES, LoopEquations
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.rotations_at_home import rotations_at_home, turned_about
 from assur.derivation.symbols import GivenSymbols, circle_of
@@ -39,6 +39,8 @@ def home_numbers(symbols: GivenSymbols, placed: LinkOrientations, loops: LoopEqu
         turned = rotations[direction.links[0]] @ _array(placing.constant, numbers).T
         if direction.kind == "rod":
             parts = turned @ _array(placing.line, numbers)
+        elif placing.triangle is not None:
+            parts = turned @ _array(placing.triangle.sides[SIDES.index(direction.name[-2:])], numbers)
         elif placing.second is None:
             parts = _angle(turned, _array(placing.axis, numbers))
         else:

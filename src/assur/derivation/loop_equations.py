@@ -7,8 +7,9 @@ Where several joints slide on one link that turns, the loops through them are wr
 directions stand still.
 
 A loop is a sum of vectors from joint to joint, each fixed in a link. One in a link that turns about u is
-w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction. What is not linear belongs to
-one direction alone: cos^2 + sin^2 = 1, and the direction of a rod has length 1.
+w_u + cos psi (w - w_u) + sin psi u x w; one in a rod is a multiple of its direction; one in a link that three balls
+hold is a sum of multiples of two sides of their triangle, which closes as a loop does. What is not linear belongs to
+one direction alone: cos^2 + sin^2 = 1, the direction of a rod has length 1, and a side has its own.
 """
 
 from __future__ import annotations
@@ -20,10 +21,11 @@ from typing import Literal
 
 import sympy
 
+from assur.derivation.ball_triangles import BallTriangle
 from assur.derivation.definitions import Definition
 from assur.derivation.dimension_relations import dimension_relations
 from assur.derivation.hinges import Hinge
-from assur.derivation.linear import Form, form_of
+from assur.derivation.linear import ONE, Form, form_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
@@ -33,27 +35,32 @@ from assur.model.mechanism import Joint
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract, transposed
 
+SIDES = ("12", "23", "31")
+"""Corners between which the sides of a triangle are."""
+
 
 @dataclass(frozen=True)
 class UnknownDirection:
     """What is unknown of a link: cosine and sine of an angle, the components of a rod's direction, or of a vector.
 
     Attributes:
-        kind: "circle", "rod" or "stroke", a vector whose length is unknown too.
+        kind: "circle", "rod", "side" of a triangle of balls, or "stroke", a vector whose length is unknown too.
         name: by which its angle is called.
         unknowns: its symbols.
         links: whose orientation it says.
+        square: of its length.
     """
 
-    kind: Literal["circle", "rod", "stroke"]
+    kind: Literal["circle", "rod", "side", "stroke"]
     name: str
     unknowns: tuple[sympy.Symbol, ...]
     links: tuple[str, ...]
+    square: sympy.Expr = ONE
 
     @property
     def quadric(self) -> sympy.Expr:
-        """What vanishes of its own accord: the sum of squares less 1."""
-        return sum(unknown**2 for unknown in self.unknowns) - 1
+        """What vanishes of its own accord: the sum of squares less that of its length."""
+        return sum(unknown**2 for unknown in self.unknowns) - self.square
 
     @property
     def freedoms(self) -> int:
@@ -108,6 +115,14 @@ def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquat
     return _Loops(symbols, placed).equations()
 
 
+def sides_of(triangle: BallTriangle, links: Sequence[str]) -> tuple[UnknownDirection, ...]:
+    """The sides of a triangle as unknowns, called by the link and the numbers of both corners."""
+    name = links[0].replace(".", "_")
+    unknowns = (tuple(sympy.Symbol(f"d{k}_{name}_{ends}", real=True) for k in "xyz") for ends in SIDES)
+    every = zip(SIDES, unknowns, triangle.squares, strict=True)
+    return tuple(UnknownDirection("side", f"{name}_{ends}", own, tuple(links), square) for ends, own, square in every)
+
+
 class _Loops:
     def __init__(self, symbols: GivenSymbols, placed: LinkOrientations) -> None:
         self.symbols, self.record, self.placed = symbols, symbols.record, placed
@@ -117,6 +132,7 @@ class _Loops:
         self.oblique: dict[sympy.Symbol, sympy.Symbol] = {}
         self.circles = {k: self._unknown_direction("circle", links) for k, links in self._numbered("circle").items()}
         self.rods = {k: self._unknown_direction("rod", links) for k, links in self._numbered("rod").items()}
+        self.sides = {own.number: sides_of(own, links) for own, links in self._triangles().items()}
 
     def equations(self) -> LoopEquations:
         point: dict[str, tuple[Vector, Vector]] = {self.record.base: ((0, 0, 0), (0, 0, 0))}
@@ -134,6 +150,8 @@ class _Loops:
         shared = [own for turn in self.placed.hinges for own in self._apart(turn)]
         framed = self._framed()
         gaps = [self._in_frame(gap, framed) for gap in gaps]
+        around = [[own.unknowns for own in sides] for sides in self.sides.values()]
+        gaps += [add(add((*a,), (*b,)), (*c,)) for a, b, c in around]
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
         used = {
@@ -141,9 +159,9 @@ class _Loops:
             for row in (*(row for row, _ in shared), *rows, *platform)
             for symbol in sympy.sympify(row).free_symbols
         }
-        directions = [
-            direction for direction in (*self.circles.values(), *self.rods.values()) if used & {*direction.unknowns}
-        ]
+        sides = (own for group in self.sides.values() for own in group)
+        every = (*self.circles.values(), *self.rods.values(), *sides)
+        directions = [direction for direction in every if used & {*direction.unknowns}]
         forms = [self._form(row, directions, framed) for row in rows]
         unknowns = self._plain_lengths(framed)
         unknowns += [unknown for direction in directions for unknown in direction.unknowns]
@@ -287,6 +305,13 @@ class _Loops:
             kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links)
         )
 
+    def _triangles(self) -> dict[BallTriangle, list[str]]:
+        links: dict[BallTriangle, list[str]] = {}
+        for link, own in self.placed.links.items():
+            if own.triangle is not None:
+                links.setdefault(own.triangle, []).append(link)
+        return links
+
     def _points(self, joint: Joint) -> tuple[Vector, Vector]:
         own = self.symbols.geometry.joints[joint.name]
         return own.at, own.child_at
@@ -344,7 +369,16 @@ class _Loops:
         turned = apply(own.constant, vector) if own.constant is not UNTURNED else vector
         if own.rod is not None:
             return self._along(link, own, turned)
+        if own.triangle is not None:
+            return self._in_triangle(link, own.triangle, turned)
         return self._turned(own, turned)
+
+    def _in_triangle(self, link: str, triangle: BallTriangle, vector: Vector) -> Vector:
+        first, last, beside = triangle.shares(vector)
+        if not all(map(self.symbols.witness.is_zero, beside)):
+            raise NotDerivedError(f"{link} has a point beside the plane of {', '.join(triangle.joints)}")
+        (a, b, c), _, (x, y, z) = (own.unknowns for own in self.sides[triangle.number])
+        return add(scaled((a, b, c), first), scaled((x, y, z), last))
 
     def _turned(self, own: Orientation, turned: Vector) -> Vector:
         """A vector that turns on a circle, if there is one, or on one that turns on another."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from assur.derivation.ball_triangles import BallTriangle, ball_triangles
 from assur.derivation.constraint_reasons import ConstraintReason, held
 from assur.derivation.exact_vectors import ExactVectors
 from assur.derivation.hinges import Hinge, hinges, point_on, rods_of, slides
@@ -25,6 +26,7 @@ class Orientation:
     A rod has the number `rod`, which rods that stay parallel share, and a direction `line` in the frame of `constant`.
     It lies between ball joints, or on a hinge across the axis about which what carries it turns, across that hinge or
     oblique to it: Rot(axis, psi) Rot(hinge, phi) constant. Another link on a hinge has phi of circle number `second`.
+    One that three balls hold turns as the sides of their `triangle` do, which is in the frame of `constant`.
     """
 
     constant: Matrix = UNTURNED
@@ -34,6 +36,7 @@ class Orientation:
     rod: int | None = None
     hinge: Vector | None = None
     second: int | None = None
+    triangle: BallTriangle | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +112,12 @@ class _Reading:
                 if other == moved:
                     whole = self.exact.tidy(product(orientation.constant, inside))
                     links[link] = replace(orientation, constant=whole, second=number)
+        triangles = ball_triangles(self.symbols, bodies, links)
+        links |= {
+            link: Orientation(inside, triangle=triangles[body])
+            for link, (body, inside) in bodies.items()
+            if body in triangles
+        }
         missing = [link for link in self.record.links if link not in links]
         if missing:
             why = "; ".join(

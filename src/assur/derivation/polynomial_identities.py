@@ -45,10 +45,12 @@ def polynomial_identities(
     witness: ModularWitness,
 ) -> PolynomialIdentities:
     """The identities of a set that a polynomial solves. Errors: NoIdentityError."""
-    return _CoupledSet(part, eliminant, loops, vectors, witness).identities()
+    return CoupledSet(part, eliminant, loops, vectors, witness).identities()
 
 
-class _CoupledSet:
+class CoupledSet:
+    """A set that one polynomial solves, and its identities."""
+
     def __init__(
         self,
         part: SolvedSet,
@@ -89,9 +91,13 @@ class _CoupledSet:
         formulas: dict[sympy.Symbol, Multipliers] = {}
         for vector in self.vectors:
             formulas |= stroke_identities(self.part, vector, self.witness)
-        formulas |= self.following | dict(self._by_cramer())
+        formulas |= self.following | self._by_cramer()
         equations = tuple(self.loops.multipliers(form) for form in self.part.equations)
-        return PolynomialIdentities(equations, tuple(lines), formulas, quadric, self._polynomial())
+        return PolynomialIdentities(equations, tuple(lines), formulas, quadric or self._quadric(), self._polynomial())
+
+    def _quadric(self) -> Multipliers:
+        """Of a quadric that is none of the quadrics of directions."""
+        return {}
 
     def _pairs(self, targets: Sequence[Form]) -> Iterator[tuple[Form, Form]]:
         return zip((*self.part.lines, self.eliminant.quadric), targets, strict=True)
@@ -141,9 +147,9 @@ class _CoupledSet:
         for k, unknown in enumerate(self.eliminant.unknowns):
             yield unknown, {f"l{j + 1}": adjugate[k, j] for j in range(count)}
 
-    def _by_cramer(self) -> Iterator[tuple[sympy.Symbol, Multipliers]]:
+    def _by_cramer(self) -> dict[sympy.Symbol, Multipliers]:
         determinant = self.eliminant.steps[0].symbol
-        return ((unknown, times(shares, 1 / determinant)) for unknown, shares in self._cramer())
+        return {unknown: times(shares, 1 / determinant) for unknown, shares in self._cramer()}
 
     def _polynomial(self) -> Multipliers:
         unknowns, steps, quadric = self.eliminant.unknowns, self.eliminant.steps, self.eliminant.quadric

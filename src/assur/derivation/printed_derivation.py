@@ -8,12 +8,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
 import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.numeric_example import ExampleBranch, angle, example_branches
+from assur.derivation.platform_rotation import platform_rotation
 from assur.derivation.printed_letters import PrintedLetters, input_letter, letter, plain, sign_formula
 from assur.derivation.printed_velocities import PrintedVelocities, printed_velocities
 from assur.derivation.solution import AnalyticSolution, analytic_solution
@@ -22,7 +24,8 @@ from assur.derivation.written_solution import WrittenSolution
 from assur.kinematics.modes import Problem
 from assur.kinematics.naming import described_signs
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES
+from assur.model.pose import ANGLES, QUATERNION
+from assur.numerics.rotations import to_angles, to_quaternion
 
 SIGN: Mapping[Problem, str] = {"direct": r"\epsilon", "inverse": r"\sigma"}
 DECIMALS = 4
@@ -199,10 +202,10 @@ class _Problem:
         mode = f"{branch.root} {mode}".strip() if branch.root else mode
         if branch.negative is not None:
             return PrintedBranch(mode, (), written.writer.text(branch.negative))
-        values = (
-            PrintedValue(latex, self._border(of(branch.values), is_angle), self._unit(is_angle))
-            for latex, is_angle, of in self._results
-        )
+        parts, values = {*map(letter, QUATERNION)}, list[PrintedValue]()
+        for latex, is_angle, of in self._results:
+            unit = "" if latex in parts else self._unit(is_angle)
+            values.append(PrintedValue(latex, self._border(of(branch.values), is_angle), unit))
         return PrintedBranch(mode, tuple(values))
 
     @property
@@ -221,22 +224,31 @@ class _Problem:
         if self.problem == "inverse":
             pairs = ClosedFormFormulas(self.solution, self.solution, {}).input_pairs
             names = [input_letter(driven) for driven in self.record.inputs]
-        else:
-            place = dict(zip("xyz", self.solution.point, strict=True))
-            names = [letter(name) for name in self.record.platform.pose]
-            pairs = [place[name] if name in place else self._platform_circle() for name in self.record.platform.pose]
-        return [(name, isinstance(pair, tuple), _valued(pair)) for name, pair in zip(names, pairs, strict=True)]
-
-    def _platform_circle(self) -> tuple[sympy.Expr, sympy.Expr]:
-        platform = self.record.platform.link
-        own = next(own for own in self.solution.loops.directions if platform in own.links)
-        return own.unknowns[0], own.unknowns[1]
+            return [(name, isinstance(pair, tuple), _valued(pair)) for name, pair in zip(names, pairs, strict=True)]
+        place = dict(zip("xyz", self.solution.point, strict=True))
+        turned = _turned(self.solution) if {*self.record.platform.pose} - {*place} else None
+        return [
+            (letter(name), name in ANGLES, _valued(place[name]) if turned is None or name in place else turned(name))
+            for name in self.record.platform.pose
+        ]
 
     def _border(self, value: float, is_angle: bool) -> float:
         return math.degrees(value) if is_angle and self.record.angle == "deg" else value
 
     def _unit(self, is_angle: bool) -> str:
         return self.record.angle if is_angle else self.record.unit
+
+
+def _turned(solution: AnalyticSolution) -> Callable[[str], Callable[[Mapping[sympy.Symbol, float]], float]]:
+    """Name of a coordinate of the platform's orientation -> what it is at values of the unknowns."""
+    entries = [_valued(sympy.sympify(entry)) for row in platform_rotation(solution) for entry in row]
+
+    def coordinates(values: Mapping[sympy.Symbol, float]) -> dict[str, float]:
+        rotation = np.array([entry(values) for entry in entries]).reshape(3, 3)
+        named = dict(zip(ANGLES, map(float, to_angles(rotation)), strict=True))
+        return named | dict(zip(QUATERNION, map(float, to_quaternion(rotation)), strict=True))
+
+    return lambda name: lambda values: coordinates(values)[name]
 
 
 def _valued(pair: sympy.Expr | tuple[sympy.Expr, sympy.Expr]) -> Callable[[Mapping[sympy.Symbol, float]], float]:

@@ -29,6 +29,7 @@ TURNS = (r"\theta", r"\varphi", r"\psi", r"\chi", r"\omega", r"\eta", r"\zeta")
 """Letters for angles of which the file names none: one for each kind of link, its number as index."""
 RODS = ("d", "f", "g", "n", "m", "p")
 """The same for directions of rods."""
+VECTORS = ("rod", "side")
 STROKES = ("v", "u", "w", "e")
 """For vectors with a length in them."""
 ROOTS = ("g", "k", "p", "q", "f")
@@ -158,6 +159,10 @@ class PrintedLetters:
             if unknown.kind == "rod":
                 parts = ", ".join(self.letters[symbol].latex for symbol in unknown.unknowns)
                 yield Nomenclature(f"{self.angle(unknown)} = ({parts})", f"direction of {links}, a unit vector", "")
+            elif unknown.kind == "side" and own.triangle is not None:
+                names = dict(zip("123", map(joint_letter, own.triangle.joints), strict=True))
+                start, end = (names[corner] for corner in unknown.name[-2:])
+                yield Nomenclature(self.angle(unknown), f"vector from ${start}$ to ${end}$, on {links}", record.unit)
             elif own.axis is not None and self._named(unknown) is None:
                 yield Nomenclature(self.angle(unknown), f"angle of {links} about {axis}", record.angle)
             elif self._named(unknown) is not None and self.angle(unknown) not in self._given:
@@ -181,7 +186,7 @@ class PrintedLetters:
         return {symbol for formula in self._formulas for symbol in formula.free_symbols}
 
     def _of_direction(self, unknown: UnknownDirection) -> dict[sympy.Symbol, PrintedLetter]:
-        if unknown.kind == "rod":
+        if unknown.kind in VECTORS:
             stem = self._letter(unknown, RODS)
             base, _, index = stem.partition("_")
             inside = index.strip("{}")
@@ -254,7 +259,7 @@ class PrintedLetters:
         return [
             own
             for own in self.solution.loops.directions
-            if own.kind == kind and (kind == "rod" or self._named(own) is None)
+            if own.kind == kind and (kind in VECTORS or self._named(own) is None)
         ]
 
     @cached_property

@@ -9,17 +9,20 @@ from typing import Any
 import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
+from assur.derivation.circle_pairs import PairEliminant
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.identities import SetIdentities, set_identities
 from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.linear_span import LinearSpan, Multipliers, NoIdentityError, unit
 from assur.derivation.loop_equations import SharedAxis, UnknownDirection
 from assur.derivation.orientations import Orientation
+from assur.derivation.pair_identities import pair_identities
 from assur.derivation.polynomial_identities import PolynomialIdentities, polynomial_identities
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import without_identities
 from assur.derivation.strokes import StrokeVector, stroke_vectors
-from assur.results.answers.answer import ABSENT
+from assur.derivation.witness import ModularWitness
+from assur.results.answers.answer import ABSENT, Absent
 from assur.results.answers.derivation import (
     DerivationProof,
     ProvedAxis,
@@ -27,6 +30,7 @@ from assur.results.answers.derivation import (
     ProvedPolynomial,
     ProvedReason,
     ProvedSet,
+    ProvedTriangle,
 )
 
 
@@ -82,7 +86,7 @@ class _Proof:
         rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
         span = LinearSpan(rows, left, self.witness, self.fixed)
         if part.eliminant is not None:
-            coupled = polynomial_identities(part, part.eliminant, span, self.vectors, self.witness)
+            coupled = _coupled(part, part.eliminant, span, self.vectors, self.witness)
             return replace(_proved(coupled), polynomial=_polynomial(part.eliminant, coupled))
         return _proved(set_identities(part, span, self.vectors, self.witness))
 
@@ -110,7 +114,17 @@ class _Proof:
                 circles[own.circle] = used[link]
         for link, own in placed.items():
             circle = circles.get(own.circle) if own.circle is not None else None
-            yield _orientation(link, own, circle, rods.get(link), used.get(link) if own.second is not None else None)
+            second = used.get(link) if own.second is not None else None
+            yield replace(_orientation(link, own, circle, rods.get(link), second), triangle=self._triangle(link))
+
+    def _triangle(self, link: str) -> ProvedTriangle | Absent:
+        own = self.solution.placed.links[link].triangle
+        if own is None:
+            return ABSENT
+        record, sides = self.solution.symbols.record, [one for one in self.loops.directions if link in one.links]
+        ends = {self.solution.placed.links[end].triangle: end for name in own.joints[:1]
+                for end in (record.joints[name].parent, record.joints[name].child)}  # fmt: skip
+        return ProvedTriangle(ends[own], own.joints, tuple(tuple(map(str, side.unknowns)) for side in sides))
 
     def _reasons(self) -> Iterator[ProvedReason]:
         for own in self.solution.placed.reasons:
@@ -124,6 +138,18 @@ class _Proof:
             f"{coordinates[index].joint}.{coordinates[index].component}": str(symbol)
             for index, symbol in self.loops.lengths.items()
         }
+
+
+def _coupled(
+    part: SolvedSet,
+    eliminant: AngleEliminant,
+    span: LinearSpan,
+    vectors: Sequence[StrokeVector],
+    witness: ModularWitness,
+) -> PolynomialIdentities:
+    if isinstance(eliminant, PairEliminant) and eliminant.pair is not None:
+        return pair_identities(part, eliminant, eliminant.pair, span, vectors, witness)
+    return polynomial_identities(part, eliminant, span, vectors, witness)
 
 
 def _proved(own: SetIdentities) -> ProvedSet:
@@ -140,7 +166,7 @@ def _polynomial(eliminant: AngleEliminant, own: PolynomialIdentities) -> ProvedP
         (cosine, sine),
         str(eliminant.steps[-1].symbol),
         eliminant.degree,
-        f"{value_of(eliminant.quadric)} = 0" if eliminant.quadric else "",
+        f"{quadric} = 0" if (quadric := eliminant.left_quadric) != 0 else "",
         _texts(own.quadric),
         _texts(own.polynomial),
     )
@@ -171,6 +197,7 @@ def _orientation(
 ) -> ProvedOrientation:
     kind = "rod" if own.rod is not None else "circle" if own.circle is not None else "fixed"
     kind = kind if own.second is None else "carried"
+    kind = kind if own.triangle is None else "triangle"
     return ProvedOrientation(
         link, kind, _matrix(own.constant),
         None if own.axis is None else _vector(own.axis),

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import sympy
 
+from assur.derivation.circle_pairs import PairEliminant
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.linear import Form
 from assur.derivation.link_lines import LinkLine, LinkLines
@@ -105,6 +106,11 @@ class _Meeting:
         if stroke is not None:
             text, names = joined(self._ends(stroke))
             return phrase(f"{text} coincide", *names)
+        own = self.part.eliminant
+        if isinstance(own, PairEliminant) and own.pair is not None and condition in own.divisors:
+            first, last = own.pair.circles
+            free = last if condition == own.divisors[0] else first
+            return phrase("{} may stand in two ways at one angle of {}", *map(self.lines.name, (free, own.direction)))
         if condition in self.part.shared and len(self.part.directions) > 1:
             text, names = self._curves()
             return phrase(f"{text}{self._shift(', shifted to meet at {},')} coincide", *names, *self._floating)

@@ -21,8 +21,8 @@ def reduced_quadric(
     unknowns: Sequence[sympy.Symbol],
     witness: ModularWitness,
 ) -> Form:
-    """The sum of squares less 1, with a symbol for each product of two unknowns."""
-    total: Form = {ONE: -ONE}
+    """The quadric, with a symbol for each product of two unknowns."""
+    total: Form = {ONE: -direction.square}
     for own in direction.unknowns:
         inner = [key for key in unknowns if key in values[own]]
         rest = value_of({key: part for key, part in values[own].items() if key not in inner})

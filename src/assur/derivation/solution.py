@@ -12,6 +12,7 @@ import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.angle_residues import cycle_type, some_root
+from assur.derivation.components import Components, components
 from assur.derivation.cycle_types import CycleType, GroupFindings, findings
 from assur.derivation.definitions import Definition
 from assur.derivation.elimination import Root, SolvedSet
@@ -131,7 +132,7 @@ class AnalyticSolution:
     @cached_property
     def group(self) -> GroupFindings | None:
         """What is proved of the polynomial's roots, where its coefficients have no roots in them but of numbers."""
-        if self.eliminant is None or any(part.roots for part in self.sets[: self._place]):
+        if self.eliminant is None or any(part.roots for part in self.sets[: self._place]) or self.components:
             return None
         types: dict[CycleType, int] = {}
         for seed in range(2, 2 + PRIMES):
@@ -145,6 +146,14 @@ class AnalyticSolution:
             if known.insoluble:
                 break
         return known
+
+    @cached_property
+    def components(self) -> Components | None:
+        """The components of its solutions, where two circles follow of the polynomial's: others have one component."""
+        if self.eliminant is None or not self.eliminant.backward or self._place or self.placed.named.definitions:
+            return None
+        own = components(self.eliminant)
+        return own if own is not None and own.count == self.eliminant.degree else None
 
     @property
     def _place(self) -> int:

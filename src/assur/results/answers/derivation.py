@@ -66,12 +66,22 @@ Multiples = Mapping[str, str]
 
 
 @dataclass(frozen=True)
+class ProvedTriangle:
+    """Three ball joints of a link, and the components of the vectors from each to the next."""
+
+    link: str
+    joints: tuple[str, ...]
+    sides: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
 class ProvedOrientation:
     """How a link may be turned: not at all, on a circle about an axis, carried on a hinge by such a link, as a rod.
 
     It turns by `constant`, by cosine and sine of `circle` about `axis`. Of a rod `line` is its direction, after
     `constant`, and `hinge` one across it, that turns with the circle; it is along the unit vector `rod`. A carried link
-    turns by cosine and sine of `second` about `hinge` first.
+    turns by cosine and sine of `second` about `hinge` first. One that three balls hold turns as the sides of their
+    `triangle` do.
     """
 
     link: str
@@ -83,6 +93,7 @@ class ProvedOrientation:
     line: tuple[str, ...] | None
     rod: tuple[str, ...] | None
     second: tuple[str, ...] | Absent = ABSENT
+    triangle: ProvedTriangle | Absent = ABSENT
 
 
 @dataclass(frozen=True)
@@ -200,16 +211,29 @@ class DerivedCase:
 
 
 @dataclass(frozen=True)
+class DerivedComponents:
+    """A polynomial in the tangent of half an angle as a product, in that or in `unknown`, its cosine or sine.
+
+    Of each factor, irreducible over dimensions and inputs, `degrees` has the degree; each root has `solutions`.
+    """
+
+    unknown: str | None
+    degrees: tuple[int, ...]
+    solutions: int
+    proved: str
+
+
+@dataclass(frozen=True)
 class DerivedProblem:
     """The direct or the inverse problem.
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
-    modulo a prime that is drawn. `proved` says what roots its polynomial cannot have. `assumed` are the parallelograms
-    that stay such; `left_out` says in which other way links may stand; `vanish_at_home` are conditions and radicands
-    that are zero at the file's home; `lengths` are found after the sets. `proof` is there where it is asked for, or
-    `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set
-    that is not solved; `count` the number of solutions, found without any of the elimination; `closed` what holds where
-    conditions do not, derived modulo a prime.
+    modulo a prime that is drawn. `proved` says what roots its polynomial cannot have; `components` what it is a product
+    of. `assumed` are the parallelograms that stay such; `left_out` says in which other way links may stand;
+    `vanish_at_home` are conditions and radicands that are zero at the file's home; `lengths` are found after the sets.
+    `proof` is there where it is asked for, or `not_proved` says why it is not. `square_roots`: whether these alone
+    solve it; "no" is proved. `resists` is the set that is not solved; `count` the number of solutions, found without
+    any of the elimination; `closed` what holds where conditions do not, derived modulo a prime.
     """
 
     problem: str
@@ -231,6 +255,7 @@ class DerivedProblem:
     closed: tuple[DerivedCase, ...] | Absent = ABSENT
     left_out: tuple[str, ...] = ()
     vanish_at_home: tuple[str, ...] = ()
+    components: DerivedComponents | Absent = ABSENT
 
 
 @dataclass(frozen=True)

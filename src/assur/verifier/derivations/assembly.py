@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, hops, point
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, Triangle, hops, point
 from assur.verifier.formula import NumberType, number
 from assur.verifier.graph import STEPS, Graph
 from assur.verifier.mechanism import COORDINATES, FileMechanism
+from assur.verifier.reading import RefusedError
 from assur.verifier.vectors import ONE, ZERO, Matrix, Vector, about, add, apply, plus, product, scaled, subtract, times
 
 ANGLES = ("phi", "theta", "psi")
@@ -116,6 +117,18 @@ class FileAssembly:
                 turn = product(turn, about(axis, self.given[f"cos_{name}"], self.given[f"sin_{name}"]))
         return turn
 
+    def triangle(self, claim: Mapping[str, Any], constant: Matrix) -> Triangle:
+        """Balls of a link that is turned by a constant in the frame of its orientation. Errors: RefusedError."""
+        link, names = str(claim["link"]), [str(name) for name in claim["joints"]]
+        joints = [self.mechanism.joints[name] for name in names]
+        if len({*names}) != len(ONE) or not all(link in (own.parent, own.child) for own in joints):
+            raise RefusedError(f"{', '.join(names)[:60]} are no three joints of {link[:40]}")
+        a, b, c = (apply(constant, point(self.graph, name, link)) for name in names)
+        sides = tuple(tuple(map(str, side)) for side in claim["sides"])
+        if [len(side) for side in sides] != [len(ONE)] * len(ONE):
+            raise RefusedError(f"{link[:40]} has three sides of three components")
+        return Triangle((a, b, c), sides)
+
     def slides(self) -> list[str]:
         """Lengths that are sought, as "joint.coordinate"."""
         every = (
@@ -162,6 +175,8 @@ class FileAssembly:
             joint = self.mechanism.joints[name]
             start = add(place(joint.parent, point(self.graph, name, joint.parent)), slid(name))
             gaps += subtract(start, place(joint.child, point(self.graph, name, joint.child)))
+        for sides in dict.fromkeys(own.triangle.sides for own in turns.values() if own.triangle is not None):
+            gaps += [plus(plus(values[a], values[b]), values[c]) for a, b, c in zip(*sides, strict=True)]
         platform = place(self.mechanism.platform, self.graph.point)
         if self.problem == "inverse":
             for name in self.mechanism.pose:

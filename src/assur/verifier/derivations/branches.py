@@ -13,7 +13,7 @@ from typing import Any
 
 from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
-from assur.verifier.derivations.turning import ClaimedTurn, same
+from assur.verifier.derivations.turning import ClaimedTurn, Triangle, same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
 from assur.verifier.mechanism import FileMechanism
@@ -172,7 +172,14 @@ class _DrawnBranches:
         constant: Matrix = (a, b, c)
         circle, rod = (None if own[key] is None else tuple(own[key]) for key in ("circle", "rod"))
         second = tuple(own["second"]) if "second" in own else None
-        return ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second)
+        triangle = self._triangle(own["triangle"], values) if "triangle" in own else None
+        return ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second, triangle)
+
+    def _triangle(self, claim: Mapping[str, Any], values: Mapping[str, Any]) -> Triangle:
+        every = self.problem["proof"]["orientations"]
+        leader = next(other for other in every if other["link"] == claim["link"])
+        a, b, c = (self._vector(row, values) for row in leader["constant"])
+        return self.assembly.triangle(claim, (a, b, c))
 
     def _vector(self, parts: Sequence[str], values: Mapping[str, Any]) -> Vector:
         x, y, z = (self._value(part, values) for part in parts)

@@ -15,7 +15,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
+from assur.verifier.derivations.assembly import (
+    LENGTHS,
+    QUATERNION,
+    FileAssembly,
+    given_names,
+    has_quaternion,
+    platform_turns,
+)
 from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.known_formulas import KnownFormulas, Multiples
 from assur.verifier.derivations.orientations import OrientationCheck
@@ -24,7 +31,7 @@ from assur.verifier.derivations.turning import ClaimedTurn
 from assur.verifier.formula import AngleSum
 from assur.verifier.mechanism import FileMechanism, mechanism
 from assur.verifier.reading import MalformedError, RefusedError, printable
-from assur.verifier.vectors import apply, dot, subtract, transposed
+from assur.verifier.vectors import ONE, apply, dot, subtract, transposed
 
 FORMAT, VERSION = "assur derivation", 1
 
@@ -145,6 +152,7 @@ class _ProblemCheck(KnownFormulas):
         for given, proved in zip(self.problem["sets"], self.proof["sets"], strict=True):
             self._set(given, proved)
         self._lengths()
+        self._entries(turns)
         missing = self.unknowns - self.earlier.keys() - self.circles
         if missing:
             raise RefusedError(f"nothing says what {', '.join(sorted(missing))} is")
@@ -169,7 +177,12 @@ class _ProblemCheck(KnownFormulas):
         """Unknowns of orientations with their squares, lengths that are sought, and components of vectors of these."""
         circles = {group for own in turns.values() for group in (own.circle, own.second) if group}
         self.turning = circles
-        own_ones = [*circles, *{own.rod for own in turns.values() if own.rod}]
+        own_ones = dict.fromkeys((*circles, *(own.rod for own in turns.values() if own.rod)), term(1))
+        for own in turns.values():
+            if own.triangle is not None:
+                own_ones |= zip(
+                    own.triangle.sides, (term(dot(side, side)) for side in own.triangle.vectors), strict=True
+                )
         sliding = dict(self.proof["sliding"])
         names = [name for group in own_ones for name in group] + [*sliding.values()]
         if len({*names}) != len(names) or {*names} & self.known.keys():
@@ -179,8 +192,8 @@ class _ProblemCheck(KnownFormulas):
         self.known |= {name: symbol(name) for name in names}
         self.units: dict[str, Term] = {}
         self.squares: dict[str, Term] = {}
-        for group in own_ones:
-            total = sum((self.known[name] * self.known[name] for name in group), term(-1))
+        for group, square in own_ones.items():
+            total = sum((self.known[name] * self.known[name] for name in group), -square)
             for label, text in self.proof["units"].items():
                 if self.quotients([gap := self.read(text) - total], {}).zero(gap):
                     self.units[label] = total
@@ -282,14 +295,14 @@ class _ProblemCheck(KnownFormulas):
         self.numbers.squares[names[1]] = self.squares[names[1]]
         return {*names}
 
-    def _polynomial(self, own: Mapping[str, Any], formulas: Mapping[str, Term], equations: Mapping[str, Term]) -> int:
-        """How many roots it has at most: it vanishes, by multiples of equations."""
-        known = dict(equations)
+    def _polynomial(self, own: Mapping[str, Any], formulas: Mapping[str, Term], equations: dict[str, Term]) -> int:
+        """How many roots it has at most: it vanishes, by multiples of equations; a quadric `q` is then one of them."""
         if own["quadric"]:
-            known["q"] = self._equation(own["quadric"])
-            self._follow({"q": known["q"]}, [own["given"]], equations)
+            quadric = self._equation(own["quadric"])
+            self._follow({"q": quadric}, [own["given"]], equations)
+            equations["q"] = quadric
         vanishing = formulas[own["vanishes"]]
-        if not self.zero(vanishing - self.total(own["shares"], known)):
+        if not self.zero(vanishing - self.total(own["shares"], equations)):
             raise RefusedError(f"{own['vanishes']} does not vanish")
         cosine, sine = own["circle"]
         for level in self.levels():
@@ -367,6 +380,18 @@ class _ProblemCheck(KnownFormulas):
                     raise RefusedError(f"the platform's {name} is another")
         elif dict(self.problem["results"]) != dict(self.problem["lengths"]):
             raise RefusedError("results that are not the lengths")
+
+    def _entries(self, turns: Mapping[str, ClaimedTurn]) -> None:
+        """Entries of the platform's rotation, where they are among the results of a direct problem."""
+        for name, text in self.problem["results"].items():
+            if self.name == "inverse" or name in LENGTHS:
+                continue
+            if not re.fullmatch("R[123][123]", name):
+                raise RefusedError(f"no result is called {name[:40]!r}")
+            row, column = int(name[1]) - 1, int(name[2]) - 1
+            turned = turns[self.mechanism.platform].image(ONE[column], self.known, self.zero)[row]
+            if not self.zero(term(turned) - self.checked(text)):
+                raise RefusedError(f"the platform's {name} is another")
 
 
 def _symbols_of(text: str) -> set[str]:

@@ -8,7 +8,7 @@ from typing import Any
 from assur.verifier.derivations.assembly import FileAssembly
 from assur.verifier.derivations.known_formulas import KnownFormulas
 from assur.verifier.derivations.terms import Term
-from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, reached, rods, same
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, Triangle, fixes, is_rotation, reached, rods, same
 from assur.verifier.reading import RefusedError
 from assur.verifier.vectors import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 
@@ -29,6 +29,7 @@ class OrientationCheck:
         self.assembly, self.mechanism, self.formulas, self.proof = assembly, assembly.mechanism, formulas, proof
         self.zero = formulas.zero
         self.ways: list[str] = []
+        self._holders: dict[str, tuple[str, list[str]]] = {}
 
     def _vector(self, parts: Any) -> Vector:
         x, y, z = (_plain(self.formulas.read(part)) for part in parts)
@@ -65,7 +66,8 @@ class OrientationCheck:
             circle, rod = (None if own[key] is None else tuple(map(str, own[key])) for key in ("circle", "rod"))
             second = tuple(map(str, own["second"])) if "second" in own else None
             constant = self._matrix(own["constant"])
-            turn = ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second)
+            triangle = self._balls(own) if "triangle" in own else None
+            turn = ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second, triangle)
             turns[turn.link] = turn
         fixed = self._reached(self.mechanism.base, None)
         for turn in turns.values():
@@ -75,11 +77,37 @@ class OrientationCheck:
                 fine = self._on_circle(turn, turn.axis, turns)
             elif turn.kind == "carried":
                 fine = self._carried(turn, turns)
+            elif turn.kind == "triangle" and turn.triangle is not None:
+                fine = self._by_balls(turn, turn.triangle, turns)
             else:
                 fine = turn.kind == "rod" and turn.rod is not None and self._on_rod(turn, turns)
             if not fine:
                 raise RefusedError(f"the joints do not say that {turn.link} is turned so")
         return turns
+
+    def _balls(self, own: Mapping[str, Any]) -> Triangle:
+        """The three balls of a link, whose orientation has the constant that is claimed of the link that has them."""
+        claim = own["triangle"]
+        leader = next(other for other in self.proof["orientations"] if other["link"] == claim["link"])
+        self._holders[str(own["link"])] = str(claim["link"]), [str(name) for name in claim["joints"]]
+        return self.assembly.triangle(claim, self._matrix(leader["constant"]))
+
+    def _by_balls(self, turn: ClaimedTurn, triangle: Triangle, turns: Mapping[str, ClaimedTurn]) -> bool:
+        """Whether three balls hold a link, which are not on a line, and nothing else does.
+
+        Vectors between them that close and keep their lengths are those of one rotation, and of no other.
+        """
+        leader, names = self._holders[turn.link]
+        inside = self._reached(leader, None)
+        joints = self.mechanism.joints.items()
+        leaving = {name: own.type for name, own in joints if (own.parent in inside) != (own.child in inside)}
+        held = leaving.keys() == {*names} and {*leaving.values()} == {"spherical"}
+        between, own = inside.get(turn.link), turns[leader]
+        if not held or between is None or self.mechanism.base in inside or own.kind != "triangle":
+            return False
+        alike = own.triangle is not None and own.triangle.sides == triangle.sides
+        fits = same(product(own.constant, between), turn.constant, self.zero) and is_rotation(turn.constant, self.zero)
+        return alike and fits and not self.zero(triangle.size)
 
     def _reason(self, reason: Mapping[str, Any]) -> None:
         """A link that hangs on another along two directions does not turn against it."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from assur.verifier.field import NoExactError
@@ -151,6 +152,38 @@ def same(first: Matrix, second: Matrix, zero: IsZero) -> bool:
 
 
 @dataclass(frozen=True)
+class Triangle:
+    """Three balls of a link, in the frame in which it has its orientation, and the components of the sides by names."""
+
+    corners: Matrix
+    sides: tuple[tuple[str, ...], ...]
+
+    @property
+    def vectors(self) -> Matrix:
+        """From each corner to the next."""
+        a, b, c = self.corners
+        return subtract(b, a), subtract(c, b), subtract(a, c)
+
+    @property
+    def size(self) -> Any:
+        """What vanishes where the corners are on one line."""
+        first, _, last = self.vectors
+        return plus(times(dot(first, first), dot(last, last)), times(-1, times(dot(first, last), dot(first, last))))
+
+    def image(self, vector: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
+        """A vector of the link in the base, by the first and the last side and what is across both."""
+        u, _, w = self.vectors
+        uu, uw, ww, uv, wv = dot(u, u), dot(u, w), dot(w, w), dot(u, vector), dot(w, vector)
+        over = 1 / (Fraction(self.size) if isinstance(self.size, int) else self.size)
+        first = times(plus(times(uv, ww), times(-1, times(wv, uw))), over)
+        last = times(plus(times(wv, uu), times(-1, times(uv, uw))), over)
+        (a, b, c), _, (x, y, z) = (tuple(values[name] for name in side) for side in self.sides)
+        along = _add(_scaled((a, b, c), first), _scaled((x, y, z), last))
+        beside = dot(cross(u, w), vector)
+        return along if zero(beside) else _add(along, _scaled(cross((a, b, c), (x, y, z)), times(beside, over)))
+
+
+@dataclass(frozen=True)
 class ClaimedTurn:
     """How a link is said to be turned; circle and rod by names of unknowns, all else as numbers of a type."""
 
@@ -163,10 +196,13 @@ class ClaimedTurn:
     line: Vector | None
     rod: tuple[str, ...] | None
     second: tuple[str, ...] | None = None
+    triangle: Triangle | None = None
 
     def image(self, vector: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
         """A vector of the link, in the base. Errors: RefusedError, of one that a rod does not have."""
         own = apply(self.constant, vector)
+        if self.triangle is not None:
+            return self.triangle.image(own, values, zero)
         if self.kind != "rod":
             return self._turned(own, values, zero)
         line, hinge, rod = self.line or (0, 0, 0), self.hinge or (0, 0, 0), self.rod or ()

@@ -1,0 +1,96 @@
+"""Three circles that carry the balls of a platform: one polynomial of degree 16, its components, its real poses."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+import sympy
+
+from assur.cli.main import main
+from assur.derivation.numeric_example import example_branches
+from assur.derivation.platform_rotation import platform_rotation
+from assur.derivation.solution import analytic_solution
+from assur.derivation.solution_count import solution_count
+from assur.kinematics.position import direct
+from assur.model.registry import load_record
+from assur.numerics.rotations import to_angles
+from assur.synthesis.drafting.drafting import drafted
+from assur.synthesis.drafting.repeating import repeated
+from assur.verifier.derivations.check import verify_derivation
+from assur.verifier.reading import RefusedError
+
+ALL_REAL = (380.0, 390.0, 400.0)
+"""Inputs of the 3-RPS at which all sixteen poses are real."""
+
+
+@pytest.fixture(scope="module")
+def three_rps():
+    return analytic_solution(load_record("three_rps"), "direct")
+
+
+def draft(limb, folder):
+    path = folder / "draft.toml"
+    path.write_text(drafted(repeated(limb, 3), path).text, encoding="utf-8")
+    return load_record(path)
+
+
+def poses(solution, inputs):
+    """Z, theta and psi of the real branches: all formulas in floats."""
+    record, home = solution.symbols.record, solution.symbols.witness.home
+    given = {symbol: home[symbol] for symbol in solution.symbols.parameters.values()}
+    given |= {sympy.Symbol(own.name, real=True): value for own, value in zip(record.inputs, inputs, strict=True)}
+    entries = [entry for row in platform_rotation(solution) for entry in row]
+    names = sorted({one for part in (*entries, *solution.point) for one in part.free_symbols}, key=str)
+    formulas = sympy.lambdify(names, [*entries, *solution.point])
+    real = []
+    for branch in example_branches(solution, given, ()):
+        *turned, _, _, z = formulas(*(branch.values[name] for name in names))
+        _, theta, psi = to_angles(np.reshape(turned, (3, 3)))
+        real.append((z, math.degrees(theta), math.degrees(psi)))
+    return np.array(sorted(real))
+
+
+def test_three_rps_has_the_sixteen_poses_of_its_two_quartics(three_rps):
+    derived = poses(three_rps, ALL_REAL)
+    branches = direct(load_record("three_rps"), ALL_REAL)
+    hand_written = [(z, math.degrees(theta), math.degrees(psi)) for z, theta, psi in branches.poses[~branches.dropped]]
+    assert len(derived) == len(hand_written) == three_rps.branches
+    assert derived == pytest.approx(np.array(sorted(hand_written)), abs=1e-4)
+
+
+def test_every_branch_closes_every_loop(three_rps):
+    assert (three_rps.branches, three_rps.closes()) == (16, True)
+
+
+def test_its_components_are_two_quartics_each_root_with_a_mirror_image(three_rps):
+    own = three_rps.components
+    assert [(part.degree, part.irreducible, part.no_tower) for part in own.parts] == [(4, True, True)] * 2
+    assert (own.solutions, own.count, own.total) == (2, 16, "(4 + 4) x 2")
+
+
+@pytest.mark.deep
+def test_as_many_solutions_are_counted_without_the_elimination():
+    assert solution_count(load_record("three_rps"), "direct").solutions == 16
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(("limb", "degrees"), [("P[z] R[y] S", [8, 8]), ("P[x] R[y] S", None), ("R[y] R[y] S", None)])
+def test_platforms_on_three_circles_are_derived_whatever_carries_these(limb, degrees, tmp_path):
+    solution = analytic_solution(draft(limb, tmp_path), "direct")
+    assert (solution.branches, solution.closes()) == (16, True)
+    assert (solution.components and [part.degree for part in solution.components.parts]) == degrees
+
+
+@pytest.mark.deep
+def test_the_proof_is_verified_and_a_changed_one_refused(capsys):
+    assert main(["derive", "three_rps", "--problem", "direct", "--prove", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    text = load_record("three_rps").file.read_text(encoding="utf-8")
+    (proved,) = verify_derivation(json.dumps(document).encode(), text)
+    assert (proved.branches, proved.closed, proved.conditions) == (16, 16, ("v != 0", "det != 0"))
+    (problem,) = document["problems"]
+    assert problem["components"]["degrees"] == [4, 4]
+    problem["results"]["R33"] = f"-({problem['results']['R33']})"
+    with pytest.raises(RefusedError, match="R33"):
+        verify_derivation(json.dumps(document).encode(), text)
