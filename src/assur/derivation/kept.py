@@ -1,7 +1,8 @@
-"""What was derived, kept in the user's cache: the text of closed forms, or why there is none, and of documents.
+"""What was derived, kept in the user's cache: closed forms as text, or why there is none, and what is printed.
 
-The name of an entry is a digest of the mechanism's file, of the dimensions, of assur's version and of the code of this
-folder. What is kept has passed: a derived form agrees with its joint graph before anyone sees it.
+The name of an entry is a digest of the mechanism's file, of the dimensions, of assur's version, of the code of this
+folder and of that which prints. What is kept has passed: a derived form agrees with its joint graph before anyone sees
+it.
 """
 
 from __future__ import annotations
@@ -52,7 +53,24 @@ def derived_document(record: MechanismRecord, problems: Sequence[Problem], write
     >>> derived_document(load_record("fivebar"), (), lambda: "none")
     'none'
     """
-    return _kept(record, f"document {' '.join(problems)}", write)[0]
+    return derived_text(record, f"document {' '.join(problems)}", write)
+
+
+def derived_text(record: MechanismRecord, what: str, write: Callable[[], str], printers: Sequence[Path] = ()) -> str:
+    """A text of what was derived, written once for each file.
+
+    Args:
+        record: the mechanism.
+        what: its kind, one word or several.
+        write: makes it.
+        printers: files of code outside this folder on which it depends.
+
+    >>> from assur.model.registry import load_record
+    >>> derived_text(load_record("fivebar"), "poem", lambda: "none")
+    'none'
+    """
+    code = (hashlib.sha256(path.read_bytes()).hexdigest() for path in printers)
+    return _kept(record, " ".join([what, *code]), write)[0]
 
 
 def _kept(record: MechanismRecord, what: str, make: Callable[[], str]) -> tuple[str, str]:

@@ -3,8 +3,9 @@
 import pytest
 
 from assur.model.registry import load_record
+from assur.report.sections import analytic
 from assur.report.sections.analytic import analytic_solutions
-from assur.results.kinds import Facts, Formulas
+from assur.results.kinds import Facts, Formulas, PrintedFormula, Section
 
 
 def test_both_problems_have_their_reasons_and_their_sets():
@@ -45,3 +46,19 @@ def test_what_is_not_derived_has_no_section():
 def test_where_one_problem_is_derived_the_section_is_of_that_one(name):
     (section,) = analytic_solutions(load_record(name))
     assert section.results[0].title == "The inverse problem by formulas"
+
+
+def test_a_second_report_reads_what_the_first_one_derived(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path))
+    parts = [Facts("Links", (("1", "link 2"),)), Formulas("Set 1", (PrintedFormula("<math>x</math>"),), "where")]
+    calls = []
+
+    def derived(record):
+        calls.append(dict(record.overrides))
+        yield Section("Analytic solution", "of 2 branches", [Section("Direct", "", parts)])
+
+    monkeypatch.setattr(analytic, "_sections", derived)
+    (section,) = derived(load_record("fivebar"))
+    assert [[*analytic_solutions(load_record("fivebar"))] for _ in range(2)] == [[section]] * 2
+    assert [*analytic_solutions(load_record("fivebar", l1=0.5))] == [section]
+    assert calls == [{}, {}, {"l1": 0.5}]

@@ -1,10 +1,17 @@
-"""The analytic solution, derived from the joint graph alone: why links do not turn, then set by set."""
+"""The analytic solution, derived from the joint graph alone: why links do not turn, then set by set.
+
+What a report says of it is kept with what was derived, as data: lists that begin with the kind of their part.
+"""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 from assur.derivation.formula_latex import width
+from assur.derivation.kept import derived_text
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.printed_derivation import PrintedProblem, printed_derivation
 from assur.derivation.printed_velocities import PrintedVelocities
@@ -13,8 +20,7 @@ from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.written_solution import WrittenFormula, WrittenPart
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.report.formulas.latex import latex_mathml
-from assur.report.formulas.mathml import display
+from assur.report.formulas import latex, mathml
 from assur.results.kinds import Facts, Formulas, PrintedFormula, Result, Section
 
 SAID = (
@@ -28,10 +34,40 @@ HELD = {
 LINE = 56
 """Letters for which a page has room on a line."""
 PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
+PRINTERS = (Path(__file__), *sorted(Path(latex.__file__).parent.glob("*.py")))
 
 
 def analytic_solutions(record: MechanismRecord) -> Iterator[Section]:
     """The section of the problems that formulas solve; none where there is no such problem."""
+    text = derived_text(
+        record, "section of a report", lambda: json.dumps([_plain(part) for part in _sections(record)]), PRINTERS
+    )
+    for own in json.loads(text):
+        yield _part(own)
+
+
+def _plain(part: Result | Section) -> list[Any]:
+    """A part as data. Errors: TypeError, where it is of a kind that this section has not."""
+    if isinstance(part, Section):
+        return ["section", part.title, part.text, [_plain(own) for own in part.results]]
+    if isinstance(part, Facts):
+        return ["facts", part.title, part.items]
+    if isinstance(part, Formulas):
+        return ["formulas", part.title, [line.mathml for line in part.lines], part.caption]
+    raise TypeError(type(part).__name__)
+
+
+def _part(data: list[Any]) -> Any:
+    """The part that such data are of."""
+    kind, title, *rest = data
+    if kind == "section":
+        return Section(title, rest[0], [_part(own) for own in rest[1]])
+    if kind == "facts":
+        return Facts(title, tuple((label, text) for label, text in rest[0]))
+    return Formulas(title, tuple(map(PrintedFormula, rest[0])), rest[1])
+
+
+def _sections(record: MechanismRecord) -> Iterator[Section]:
     solved: dict[Problem, AnalyticSolution] = {}
     for problem in PROBLEMS:
         try:
@@ -79,7 +115,7 @@ def _lines(formula: WrittenFormula) -> Iterator[PrintedFormula]:
             rows.append(rf"\quad {row}")
         else:
             rows[-1] = f"{rows[-1]} {row}"
-    return (PrintedFormula(display(latex_mathml(row))) for row in rows)
+    return (PrintedFormula(mathml.display(latex.latex_mathml(row))) for row in rows)
 
 
 def _velocities(own: PrintedVelocities) -> Formulas:
