@@ -56,6 +56,23 @@ def test_fewer_limbs_than_freedoms_are_shown_by_families(assur_cli):
     assert all(family["members"] >= len(family["listed"]) > 0 for family in data["families"])
 
 
+def test_an_explanation_says_what_drops_a_mechanism(assur_cli):
+    run = assur_cli("synthesize", "--limbs", "2", "--explain", "tripteron")
+    assert (run.code, run.err) == (0, "")
+    assert "not listed, by the filter of the number of limbs: it has 3 limbs, and 2 are" in " ".join(run.out.split())
+    data = assur_cli("synthesize", "--limbs", "2", "--explain", "tripteron", "--json").json
+    assert (data["dropped_by"], data["rank"], data["family"], data["listed_as"]) == ("limbs", None, None, [])
+    legs = ("U[x,y] P[x] U[y,x]",) * 3
+    run = assur_cli("synthesize", "--explain", *legs, "--actuate", "1.2,2.2,3.2")
+    assert "its drive is P1" in run.out
+
+
+def test_an_explanation_says_where_a_mechanism_is_listed(assur_cli):
+    run = assur_cli("synthesize", *SMALL, "--explain", *("R[x] R[x] C[x]",) * 3)
+    assert "listed (three_rrc): rank " in run.out
+    assert "R[x] R[x] C[x] | R[y] R[y] C[y] | R[z] R[z] C[z]" in run.out
+
+
 def test_nothing_found_says_which_coupling_degrees_there_are(assur_cli):
     run = assur_cli("synthesize", *SMALL, "--coupling", "0")
     assert run.code == 0
@@ -88,6 +105,9 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
         (("--coupling", "a"), "--coupling: 'a' is not a whole number"),
         (("--actuators", "arm"), "unknown place of the actuators 'arm'; there is: base, leg"),
         (("--top", "0"), "--top 0"),
+        (("--actuate", "1.1"), "--actuate without --explain"),
+        (("--explain", "tripteron", "--actuate", "1.1"), "--actuate beside the name tripteron"),
+        (("--explain", "P[x"), "cannot read this chain"),
     ],
 )
 def test_misuse_says_what_is_allowed(assur_cli, words, message):

@@ -38,7 +38,7 @@ from assur.results.answers.region import (
 )
 from assur.results.answers.singularity import ConfigurationAnswer, SingularityAnswer
 from assur.results.answers.sweep import SweepAnswer
-from assur.results.answers.topology import SynthesisAnswer, TopologyAnswer
+from assur.results.answers.topology import ExplanationAnswer, SynthesisAnswer, TopologyAnswer
 
 ANSWERS: dict[str, tuple[type, ...]] = {
     "aspects": (AspectsAnswer, AspectsOfModes),
@@ -66,7 +66,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "show": (MechanismAnswer,),
     "singularity": (ConfigurationAnswer, SingularityAnswer),
     "sweep": (SweepAnswer,),
-    "synthesize": (SynthesisAnswer,),
+    "synthesize": (SynthesisAnswer, ExplanationAnswer),
     "topology": (TopologyAnswer,),
     "verify": (VerifiedCertificate, VerifiedDerivation, RefusedCertificate),
     "view": (EndedView,),

@@ -20,16 +20,28 @@ from assur.results.answers.answer import ABSENT
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from assur.results.answers.topology import SynthesisAnswer
+    from assur.results.answers.topology import ExplanationAnswer, SynthesisAnswer
     from assur.synthesis.designs import Design
     from assur.synthesis.limbs import Actuators
-    from assur.synthesis.synthesis import Synthesis
+    from assur.synthesis.synthesis import Synthesis, SynthesisQuestion
 
 MILLION = 1_000_000
 """Combinations that are looked at without a word; some take seconds, a hundred times as many hours."""
 
 SHOWN = 20
 """Mechanisms in the table, and files, if nothing else is asked for."""
+
+FILTERS = {
+    "limbs": "the number of limbs",
+    "drives": "the number of drives",
+    "words": "the limbs that are written",
+    "limb": "the limbs' own motion",
+    "motion": "the platform's motion",
+    "actuation": "the drives that are to determine it",
+    "coupling": "the coupling degree",
+    "symmetry": "equal limbs",
+}
+"""What drops a mechanism, in the order in which it is asked."""
 
 Numbered = tuple[int, "Design"]
 """A mechanism with its rank."""
@@ -67,6 +79,18 @@ def synthesize(
     max_members: Annotated[
         str, Parameter(metavar="N", help="How many of a family of different limbs to list; 20 if left out.")
     ] = "",
+    explain: Annotated[
+        tuple[str, ...],
+        Parameter(
+            consume_multiple=1,
+            metavar="CHAIN ...",
+            help="Say instead which filter drops the mechanism with these limbs, or a mechanism by name, or where it is"
+            " listed.",
+        ),
+    ] = (),
+    actuate: Annotated[
+        str, Parameter(metavar="LIMB.JOINT,..", help="What is driven in the chains of --explain, as 1.1,2.1,3.1.")
+    ] = "",
     yes: Annotated[bool, Parameter(help="Look at more than a million combinations, however long it takes.")] = False,
     toml: Annotated[
         str, Parameter(metavar="FOLDER", help="Write each as a topology file that `assur topology` reads.")
@@ -91,16 +115,23 @@ def synthesize(
         assur synthesize --motion 3T --limbs 2 --coupling 0..1
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
+        assur synthesize --limbs 2 --explain tripteron
+        assur synthesize --motion 2T1R --explain "R[z] R[z] R[z]" "P[x] S" S
     """
     from assur.cli.interruption import handing_over
     from assur.cli.paths import planned_folder
-    from assur.synthesis.synthesis import Synthesis, TooManyError, synthesis
+    from assur.synthesis.synthesis import Synthesis, TooManyError, question, synthesis
 
     members = _members(max_members)
     number = None if limbs is None else whole_number(limbs, "--limbs")
     joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
     folder = planned_folder(toml) if toml else None
+    if explain:
+        asked = question(motion, number, joints, degrees, symmetric=symmetric, actuators=place, members=members)
+        return _explained(explain, actuate, asked, shared)
+    if actuate:
+        raise UsageError("--actuate without --explain; a synthesis chooses the drives itself", hint="see --actuators")
     most = None if yes else MILLION
     with (
         handing_over(Synthesis, lambda synthesis: _outcome(synthesis, count, None)),
@@ -122,6 +153,36 @@ def synthesize(
             hint = "ask for fewer joints or for --symmetric ones, or look at all of them with --yes"
             raise UsageError(error.message, hint=hint) from None
     return _outcome(found, count, folder)
+
+
+def _explained(explain: Sequence[str], actuate: str, asked: SynthesisQuestion, shared: Plain) -> Outcome:
+    from assur.synthesis.answers import explanation_answer
+    from assur.synthesis.explanation import explanation
+    from assur.synthesis.known_mechanisms import limbs_driven_by, limbs_of
+    from assur.topology.notation import parse_chains
+
+    if len(explain) == 1 and not set("[ {") & set(explain[0].strip()):
+        if actuate:
+            raise UsageError(f"--actuate beside the name {explain[0]}; it says itself what is driven")
+        limbs = limbs_of(explain[0])
+    else:
+        numbers = [part.strip() for part in actuate.split(",")] if actuate else []
+        limbs = limbs_driven_by(parse_chains(explain), numbers)
+    with progress("synthesis", shared) as step:
+        found = explanation(limbs, asked, step)
+    data = explanation_answer(found, asked, limbs)
+    return Outcome(data, lambda: _explanation_shown(data))
+
+
+def _explanation_shown(data: ExplanationAnswer) -> Iterable[RenderableType]:
+    yield from data.chains
+    yield ""
+    if data.dropped_by is None:
+        names = f" ({', '.join(data.names)})" if data.names else ""
+        yield f"listed{names}: {data.reason}."
+        yield f"as it stands there: {' | '.join(data.listed_as)}"
+    else:
+        yield f"not listed, by the filter of {FILTERS[data.dropped_by]}: {data.reason}."
 
 
 def _range(text: str) -> tuple[int, int]:

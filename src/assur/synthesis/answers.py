@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from assur.model.file.topology_text import topology_text
 from assur.model.topology_description import Declared, TopologyDescription
@@ -13,14 +13,17 @@ from assur.results.answers.topology import (
     DesignAnswer,
     DesignFamily,
     DesignLimb,
+    ExplanationAnswer,
     LimbTypeCounts,
     SynthesisAnswer,
 )
 from assur.synthesis.designs import Design
+from assur.synthesis.explanation import Explanation
+from assur.synthesis.known_mechanisms import DrivenLimb
 from assur.synthesis.positions import in_words
-from assur.synthesis.synthesis import ANY, Synthesis
+from assur.synthesis.synthesis import ANY, Synthesis, SynthesisQuestion
 from assur.topology.answers import written_poc
-from assur.topology.notation import symbolic_text
+from assur.topology.notation import plain_text, symbolic_text
 
 
 def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
@@ -34,15 +37,7 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
     ranks = {id(design): rank for rank, design in enumerate(synthesis.designs, 1)}
     families = {id(design): rank for rank, family in enumerate(synthesis.families, 1) for design in family.designs}
     return SynthesisAnswer(
-        asked=AskedSynthesis(
-            asked.motion.name,
-            asked.limbs,
-            asked.max_joints,
-            None if asked.coupling == ANY else asked.coupling,
-            asked.symmetric,
-            asked.actuators,
-            asked.members,
-        ),
+        asked=_asked(asked),
         positions=in_words(asked.motion, asked.limbs),
         limb_types=LimbTypeCounts(
             len(synthesis.limbs),
@@ -72,6 +67,36 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
             )
             for rank, family in enumerate(synthesis.families, 1)
         ),
+    )
+
+
+def explanation_answer(
+    explained: Explanation, asked: SynthesisQuestion, limbs: Sequence[DrivenLimb]
+) -> ExplanationAnswer:
+    """What became of a mechanism in a synthesis."""
+    rank = explained.synthesis.designs.index(explained.design) + 1 if explained.synthesis and explained.design else None
+    families = explained.synthesis.families if explained.synthesis else ()
+    return ExplanationAnswer(
+        asked=_asked(asked),
+        chains=tuple(plain_text(limb.chain) for limb in limbs),
+        dropped_by=explained.dropped_by or None,
+        reason=explained.reason,
+        rank=rank,
+        family=next((n for n, family in enumerate(families, 1) if explained.design in family.designs), None),
+        listed_as=tuple(chain.text for chain in explained.design.chains) if explained.design else (),
+        names=explained.design.names if explained.design else (),
+    )
+
+
+def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
+    return AskedSynthesis(
+        asked.motion.name,
+        asked.limbs,
+        asked.max_joints,
+        None if asked.coupling == ANY else asked.coupling,
+        asked.symmetric,
+        asked.actuators,
+        asked.members,
     )
 
 

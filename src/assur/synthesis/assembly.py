@@ -89,7 +89,7 @@ def assemble(chosen: Sequence[Class], sought: Sought) -> MechanismFamily:
         sought: what is asked of them.
     """
     total = len(chosen[0]) if sought.symmetric else number_of_members(chosen)
-    places, rules = _placed(chosen, sought)
+    places, rules = placed(chosen, sought)
     degrees: Counter[int] = Counter()
     if isinstance(rules, Expected):
         if not rules.reaches:
@@ -117,7 +117,7 @@ def assemble(chosen: Sequence[Class], sought: Sought) -> MechanismFamily:
     return MechanismFamily(tuple(designs), tally)
 
 
-def _placed(chosen: Sequence[Class], sought: Sought) -> tuple[tuple[int, ...], Expected | Refusal]:
+def placed(chosen: Sequence[Class], sought: Sought) -> tuple[tuple[int, ...], Expected | Refusal]:
     """The first placement that gives the motion by the rules, or the first at all, and what the rules say of it."""
     said = [(places, _by_rules(chosen, places, sought.motion)) for places in sought.placements]
     reaching = (pair for pair in said if isinstance(pair[1], Expected) and pair[1].reaches)

@@ -5,13 +5,16 @@ The first joint of each branch stands on the base and is driven. A loop is writt
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.synthesis.positions import CYCLE, turned
+from assur.synthesis.required import RequiredMotion
 from assur.synthesis.words import AXES, ROTATIONS, Begun
-from assur.topology.chains import InnerLoop
+from assur.topology.chains import Chain, InnerLoop
 from assur.topology.notation import parse_chain
 
 FloatArray = NDArray[np.float64]
@@ -39,6 +42,14 @@ class InnerLoopRow:
     def loop(self) -> InnerLoop:
         """Its branches."""
         return next(element for element in parse_chain(self.text).elements if isinstance(element, InnerLoop))
+
+    def turned_loops(self, motion: RequiredMotion) -> Iterator[tuple[FloatArray, InnerLoop]]:
+        """Ways in which it can stand to the direction that a motion singles out: a rotation (3, 3), and the loop."""
+        for power in range(3 if motion.axis else 1):
+            turn = np.linalg.matrix_power(CYCLE, power)
+            for element in turned(Chain((self.loop,)), turn).elements:
+                if isinstance(element, InnerLoop):
+                    yield turn, element
 
     def turned_by(self, turn: FloatArray) -> Begun:
         """What a word is that goes on from its output link, with the loop's axes turned onto others (3, 3)."""

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from assur.errors import UsageError
 from assur.kinematics.structure import linkage
-from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record, names, topology_names
-from assur.model.topologies import load_topology
-from assur.model.topology_description import TopologyDescription
+from assur.model.topologies import load_topology, means_topology
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.required import RequiredMotion
 from assur.topology.chains import Chain
@@ -28,36 +27,53 @@ def known_mechanisms(motion: RequiredMotion) -> Mapping[Key, tuple[str, ...]]:
     ['orthoglide']
     """
     names_by_key: dict[Key, list[str]] = defaultdict(list)
-    described = {name: _of_topology(load_topology(name)) for name in topology_names()}
-    described |= {name: _of_record(load_record(name)) for name in names() if name not in described}
-    for name, (chains, driven) in described.items():
-        key = _key(chains, driven, motion)
+    for name in dict.fromkeys((*topology_names(), *names())):
+        key = _key(limbs_of(name), motion)
         if key is not None:
             names_by_key[key].append(name)
     return {key: tuple(names) for key, names in names_by_key.items()}
 
 
-_Driven = tuple[Sequence[Chain], Sequence[str]]
-"""Limbs, and the names of their driven joints."""
+@dataclass(frozen=True)
+class DrivenLimb:
+    """A limb, and the indices of its driven joints, branches flattened."""
+
+    chain: Chain
+    driven: tuple[int, ...]
 
 
-def _of_topology(described: TopologyDescription) -> _Driven:
-    numbers = [f"{limb}.{joint}" for limb, joint in described.actuate]
-    inputs = numbered_inputs(described.chains, numbers) if numbers else default_inputs(described.chains)
-    return described.chains, inputs
+def limbs_of(name: str) -> tuple[DrivenLimb, ...]:
+    """The limbs of a topology or of a mechanism, by its name or file, as they are driven there.
 
+    Errors:
+        UnknownNameError, UsageError, MechanismFileError: as `load_topology` and `load_record`.
 
-def _of_record(record: MechanismRecord) -> _Driven:
-    built = linkage(record)
+    >>> [limb.driven for limb in limbs_of("three_upu")], [limb.driven for limb in limbs_of("zeng2019")]
+    ([(1,), (1,), (1,)], [(0, 3), (0,)])
+    """
+    if means_topology(name):
+        described = load_topology(name)
+        numbers = [f"{limb}.{joint}" for limb, joint in described.actuate]
+        return limbs_driven_by(described.chains, numbers)
+    built = linkage(load_record(name))
     hinges = {joint: group.name for group in built.groups.values() for joint in group.joints}
-    return recognised(built) or (), [hinges.get(joint, joint) for joint, _ in built.inputs]
+    return _driven(recognised(built) or (), [hinges.get(joint, joint) for joint, _ in built.inputs])
 
 
-def _key(chains: Sequence[Chain], driven: Sequence[str], motion: RequiredMotion) -> Key | None:
+def limbs_driven_by(chains: Sequence[Chain], numbers: Sequence[str] = ()) -> tuple[DrivenLimb, ...]:
+    """Chains with the joints driven that are numbered "limb.joint", or else the first ones of each branch."""
+    return _driven(chains, numbered_inputs(chains, numbers) if numbers else default_inputs(chains))
+
+
+def _driven(chains: Sequence[Chain], names: Sequence[str]) -> tuple[DrivenLimb, ...]:
+    return tuple(
+        DrivenLimb(chain, tuple(place for place, joint in enumerate(chain.joints) if joint.name in names))
+        for chain in chains
+    )
+
+
+def _key(limbs: Sequence[DrivenLimb], motion: RequiredMotion) -> Key | None:
     try:
-        return mechanism_key(
-            limb_key(chain, motion, [place for place, joint in enumerate(chain.joints) if joint.name in driven])
-            for chain in chains
-        )
+        return mechanism_key(limb_key(limb.chain, motion, limb.driven) for limb in limbs) if limbs else None
     except UsageError:  # an inner loop that does not stand first
         return None

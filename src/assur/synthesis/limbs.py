@@ -17,7 +17,7 @@ from assur.joints.universal import UNIVERSAL
 from assur.synthesis.inner_loops import INNER_LOOPS
 from assur.synthesis.isomorphism import Key, limb_key
 from assur.synthesis.poses import is_special
-from assur.synthesis.positions import CYCLE, FloatArray, turned, upright
+from assur.synthesis.positions import upright
 from assur.synthesis.required import RequiredMotion
 from assur.synthesis.words import Word, crossing, words
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
@@ -32,11 +32,9 @@ FREE = 6
 FREE_LIMB_JOINTS = 3
 """Of the limbs that constrain nothing only the shortest are listed, with one ball joint each."""
 
-_TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
+TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
 
-_KINDS: dict[str, ParallelogramKind] = {"A": "4R", "B": "4S", "D": "2US"}
-
-SAME_AXES: FloatArray = np.eye(3)
+KINDS: dict[str, ParallelogramKind] = {"A": "4R", "B": "4S", "D": "2US"}
 
 _Group = tuple[str, str]
 """A joint and its axes: ("R", "x"), ("U", "xy"), ("A", "z") for a P(4R), ("S", "")."""
@@ -120,18 +118,17 @@ def hybrid_types(motion: RequiredMotion, max_joints: int) -> tuple[LimbType, ...
 def _hybrid_candidates(motion: RequiredMotion, max_joints: int) -> Iterator[tuple[Chain, tuple[int, ...]]]:
     always = _always(motion)
     for row in INNER_LOOPS:
-        loop = row.loop
-        room = max_joints - max(map(len, loop.branches))
-        starts = np.cumsum([0, *map(len, loop.branches[:-1])])
+        room = max_joints - max(map(len, row.loop.branches))
+        starts = np.cumsum([0, *map(len, row.loop.branches[:-1])])
         driven = tuple(int(start) for start in starts)
-        for turn in (SAME_AXES, CYCLE, CYCLE @ CYCLE) if always else (SAME_AXES,):
+        for turn, loop in row.turned_loops(motion):
             begun = row.turned_by(turn)
             for freedoms in range(max(0, motion.dim - row.freedoms), FREE - row.freedoms):
                 for word in words(freedoms, room, always=always, begun=begun):
                     for groups in _groupings(word):
                         if len(groups) <= room and not _spoils_a_cylinder(groups, -1):
                             rest = tuple(_element(group) for group in groups)
-                            yield Chain((*turned(Chain((loop,)), turn).elements, *rest)), driven
+                            yield Chain((loop, *rest)), driven
 
 
 def _once(candidates: Iterable[tuple[Chain, tuple[int, ...]]], motion: RequiredMotion) -> tuple[LimbType, ...]:
@@ -204,5 +201,5 @@ def _spoils_a_cylinder(groups: tuple[_Group, ...], driven: int) -> bool:
 def _element(group: _Group) -> Element:
     letter, names = group
     axes: tuple[Vector, ...] = tuple(NAMED[name] for name in names)
-    kind = _KINDS.get(letter)
-    return Parallelogram(kind, axes[0]) if kind else ChainJoint(_TYPES[letter], axes)
+    kind = KINDS.get(letter)
+    return Parallelogram(kind, axes[0]) if kind else ChainJoint(TYPES[letter], axes)

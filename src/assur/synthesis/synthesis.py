@@ -122,19 +122,40 @@ def synthesis(
         >>> [design.names for design in found.designs if "three_crr" in design.names]
         [('three_crr',)]
     """
-    asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators, members)
+    asked = question(motion, limbs, max_joints, coupling, symmetric=symmetric, actuators=actuators, members=members)
+    return searched(asked, step, most)
+
+
+def searched(
+    asked: SynthesisQuestion, step: Step = ignored, most: int | None = None, also: Sequence[Key] = ()
+) -> Synthesis:
+    """The answer to a question, as `synthesis` gives it.
+
+    Args:
+        asked: the question.
+        step: called with (steps done, steps in all).
+        most: combinations at most.
+        also: canonical forms of mechanisms that are listed however many joints they have, as known ones are.
+
+    Errors:
+        TooManyError, Interrupted, RoutesDisagreeError: as `synthesis`.
+    """
     usable, left_out, disagreements = _limbs(asked, step)
     classes_of_limbs = classes(usable)
     chosen = _sets_of_classes(classes_of_limbs, asked)
-    count = sum(map(number_of_members, chosen)) if not symmetric else sum(len(some[0]) for some in chosen)
+    count = sum(map(number_of_members, chosen)) if not asked.symmetric else sum(len(some[0]) for some in chosen)
     if most is not None and count > most:
         raise TooManyError(
             f"{count} combinations of {len(usable)} limb types, and {most} are looked at unasked",
             hint="ask for fewer joints or for equal limbs, or allow more by `most`",
         )
-    known = known_mechanisms(asked.motion)
     sought = Sought(
-        asked.motion, Range(*coupling), placements(asked.motion, asked.limbs), symmetric, members, tuple(known)
+        asked.motion,
+        Range(*asked.coupling),
+        placements(asked.motion, asked.limbs),
+        asked.symmetric,
+        asked.members,
+        (*known_mechanisms(asked.motion), *also),
     )
     families: list[MechanismFamily] = []
     try:
@@ -179,15 +200,21 @@ def _answer(
     )
 
 
-def _question(
-    motion: str,
-    limbs: int | None,
-    max_joints: int,
-    coupling: tuple[int, int],
-    symmetric: bool,
-    actuators: Actuators,
-    members: int,
+def question(
+    motion: str = "3T",
+    limbs: int | None = None,
+    max_joints: int = 5,
+    coupling: tuple[int, int] = ANY,
+    *,
+    symmetric: bool = False,
+    actuators: Actuators = "base",
+    members: int = MEMBERS,
 ) -> SynthesisQuestion:
+    """What is asked of a synthesis, by the arguments of `synthesis`.
+
+    Errors:
+        UnknownNameError, UsageError: as `synthesis`.
+    """
     target = motion_named(motion)
     number = target.dim if limbs is None else limbs
     least = max(2, math.ceil(target.dim / 2))

@@ -405,6 +405,28 @@ class DesignFamily:
 
 
 @dataclass(frozen=True)
+class ExplanationAnswer(Answer):
+    """Why a synthesis does not list a mechanism, or where it does.
+
+    Attributes:
+        chains: its limbs.
+        dropped_by: the first filter that drops it, "limbs", "drives", "words", "limb", "motion", "actuation",
+            "coupling" or "symmetry"; null where it is listed.
+        rank: among the mechanisms, and `family` that of its family; null where it is not listed.
+        listed_as: its limbs as they stand in the list; none where it is not listed.
+    """
+
+    asked: AskedSynthesis
+    chains: Names
+    dropped_by: str | None
+    reason: str
+    rank: int | None
+    family: int | None
+    listed_as: Names
+    names: Names
+
+
+@dataclass(frozen=True)
 class SynthesisAnswer(Answer):
     """The mechanisms with a motion, the best first, and their families; `written` are their files."""
 
