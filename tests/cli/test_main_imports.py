@@ -52,7 +52,7 @@ def test_a_check_sets_no_type_to_see_that_labels_can_be_set(cache):
     [
         (("--help",), set(), 51),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 130),
+        (("show", "zeng2019"), NUMPY, 131),
         (DIRECT, NUMPY, 139),
         (INVERSE, NUMPY, 139),
     ],

@@ -67,3 +67,19 @@ def test_modes_that_the_file_does_not_name_are_those_of_the_joint_graph(assur_cl
     assert "working mode: the signs of leg1, leg2, leg3 leg1 (s1) is +: B1 lies ahead of A1 along P1" in out
     assert "assembly mode: e = sign of" in out
     assert "(s1)" not in assur_cli("show", "fivebar").out
+
+
+def test_masses_are_shown_with_where_they_come_from(assur_cli, tmp_path):
+    text = assur.load("fivebar").file.read_text(encoding="utf-8").replace("crank1 = {", "crank1 = { mass = 1e6,")
+    text = text.replace("rod1   = {", 'rod1   = { profile = "bar", material = "steel",')
+    path = tmp_path / "my.toml"
+    path.write_text(text + "[materials]\nsteel = { density = 7850 }\n[profiles]\nbar = { round = 0.02 }\n")
+    data = assur_cli("show", str(path), "--masses", "--json").json
+    crank, rod = data["links"]
+    assert (crank["link"], crank["mass"], crank["source"]) == ("crank1", 1e6, "stated, a point at the origin")
+    assert rod["mass"] == pytest.approx(7850 * 3.14159265 * 0.01**2 * 0.194)
+    assert (rod["source"], data["lacking"]) == ("bars of bar, steel", ["crank2", "rod2"])
+    assert (data["units"]["inertia"], data["gravity"]) == ("kg m2", [0.0, 0.0, -9.81])
+    out = assur_cli("show", str(path), "--masses").out
+    assert "no mass is stated of crank2, rod2" in out
+    assert "crank1 weighs 1e+06 kg; masses are in kg" in out

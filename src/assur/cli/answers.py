@@ -25,6 +25,7 @@ from assur.results.answers.files import (
 )
 from assur.results.answers.indices import IndicesAnswer, MapsAnswer, OverallAnswer
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
+from assur.results.answers.masses import MassesAnswer
 from assur.results.answers.path import NoPath, PathAnswer
 from assur.results.answers.position import DirectAnswer, InverseAnswer
 from assur.results.answers.region import (
@@ -63,7 +64,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "page": (WrittenPage,),
     "report": (WrittenReport,),
     "schema": (SchemaAnswer,),
-    "show": (MechanismAnswer,),
+    "show": (MechanismAnswer, MassesAnswer),
     "singularity": (ConfigurationAnswer, SingularityAnswer),
     "sweep": (SweepAnswer,),
     "synthesize": (SynthesisAnswer, ExplanationAnswer),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 from assur.cli.output import heading, table
@@ -18,7 +20,15 @@ if TYPE_CHECKING:
     from assur.results.answers.catalogue import MechanismAnswer, ShownClosedForm, ShownJoint, ShownModes
 
 
-def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
+def show(
+    mechanism: MechanismName,
+    /,
+    *,
+    masses: Annotated[
+        bool, Parameter(help="What links weigh instead: mass, centre, inertia of each, and where they come from.")
+    ] = False,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
     """One mechanism: dimensions, joints, inputs, modes, mobility.
 
     Mobility is that of the whole joint graph by the rank of its closure at the
@@ -27,8 +37,13 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
     For example:
         assur show zeng2019
         assur show ./my.toml --set l2=300 --json
+        assur show ./my.toml --masses
     """
     record = shared.mechanism(mechanism)
+    if masses:
+        from assur.cli import weighed
+
+        return weighed.outcome(record)
     from assur.kinematics.answers.style import style_of
 
     data = description(record)

@@ -22,7 +22,7 @@ import numpy as np
 from assur.cache import keep, own_content
 from assur.joints.catalogue import JOINT_TYPES
 from assur.joints.joint_type import JointType
-from assur.model import formula, mechanism, syntax, written
+from assur.model import formula, machine_data, mechanism, syntax, written
 from assur.model.file.description import Description
 from assur.model.mechanism import MechanismRecord
 from assur.version import VERSION
@@ -36,7 +36,7 @@ ELSEWHERE = ("file", "folder", "description", "closed_form", "closed_form_text",
 """Fields that a file's place and text say, or that are not of the file."""
 _CLASSES: dict[str, type] = {
     f"{module.__name__.rpartition('.')[2]}.{name}": own
-    for module in (mechanism, formula, syntax, written)
+    for module in (mechanism, machine_data, formula, syntax, written)
     for name, own in vars(module).items()
     if isinstance(own, type) and is_dataclass(own) and own.__module__ == module.__name__
 }

@@ -18,6 +18,7 @@ from assur.joints.joint_type import JointType
 from assur.model.closed_form import ClosedForm
 from assur.model.file.description import Description
 from assur.model.formula import ANGLE_UNITS, Formula
+from assur.model.machine_data import MachineData
 from assur.model.written import JointFormulas, WrittenVector
 
 FloatArray = NDArray[np.float64]
@@ -216,6 +217,7 @@ class MechanismRecord:
         closed_form_not_run: whether there is a closed form that only Python could read, and that was not run.
         description: the file that the record was made of, for making it again with other dimensions.
         overrides: parameters whose values are not the file's.
+        machine: masses, cross-sections, actuators and tolerances, as far as the file says them.
         thickness: of a flat bar as it is drawn, a length; None for what `assur.scene.sizes` chooses.
     """
 
@@ -248,6 +250,7 @@ class MechanismRecord:
     overrides: Mapping[str, float] = field(default_factory=dict)
     thickness: float | None = None
     redundant_inputs: tuple[Input, ...] = ()
+    machine: MachineData = field(default_factory=MachineData)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.title}>"

@@ -6,8 +6,9 @@ import pytest
 
 Faults = Callable[[str], list[str]]
 TOP = (
-    "allowed here: angle, angles, base, chains, format, generalised, home, inputs, joints, limbs, links, modes, "
-    "name, parameters, platform, points, source, title, unit, workspace"
+    "allowed here: actuators, angle, angles, base, chains, clearances, format, generalised, gravity, home, inputs, "
+    "joints, limbs, links, materials, modes, name, parameters, payload, platform, points, profiles, source, title, "
+    "tolerances, unit, workspace"
 )
 LINKS = "there is: coupler, crank, ground, rocker"
 JOINTS = "there is: A, B, C, D, R2"
@@ -20,7 +21,7 @@ POINT = "write decimals with a point: 0.5, not 0,5"
 DEG = "a unit makes an angle of a number: 90 deg"
 QUANTITIES = (
     "there is: A, A.x, A.y, A.z, B, B.x, B.y, B.z, C, C.x, C.y, C.z, D, D.x, D.y, D.z, P.x, P.y, P.z, "
-    "R2, R2.x, R2.y, R2.z, g, and 5 more"
+    "R2, R2.x, R2.y, R2.z, g, gamma, l1, l2, l3, and 1 more"
 )
 
 CASES: list[tuple[str, str, list[str]]] = [
@@ -109,7 +110,9 @@ CASES: list[tuple[str, str, list[str]]] = [
       "24: joints.C.child_at[0]: unknown parameter 'l3'; there is: g, l1, l2, tilt", "? did you mean 'l2' or 'l1'?"]),
     # links and joints
     ("[links]", "[lnks]", [f"15: lnks: unknown key; {TOP}", "? did you mean 'links'?"]),
-    ("crank = {}", "crank = { mass = 3 }", ["17: links.crank.mass: unknown key; allowed here: meaning"]),
+    ("crank = {}", "crank = { masss = 3 }",
+     ["17: links.crank.masss: unknown key; allowed here: bars, centre, inertia, kg_per_m, mass, material, meaning, "
+      "profile, rigid, up", "? did you mean 'mass'?"]),
     ("crank = {}", "crank = { meaning = 3 }", ["17: links.crank.meaning: 3; allowed: a text in quotes"]),
     ("crank = {}", "crank = 3", ["17: links.crank: 3; allowed: a table { ... }"]),
     ("rocker = {}", "rocker = {}\nlost = {}",

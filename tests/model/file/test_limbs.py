@@ -126,7 +126,7 @@ CASES: list[tuple[str, str, list[str]]] = [
     ('axes = ["y", [1, 0, 2]] }\nB2', 'axes = ["y", "-y"] }\nB2',
      ["22: limbs.leg.joints.B1.axes: two parallel axes; allowed: two that are not",
       "? two parallel axes are one freedom: use a revolute"]),
-    ('meaning = "driven"', "mass = 3", ["17: limbs.leg.links.arm.mass: unknown key; allowed here: meaning"]),
+    ('meaning = "driven"', "mass = -3", ["17: limbs.leg.links.arm.mass: -3; allowed: zero or a positive number"]),
     ("[limbs.leg.home]", "[limbs.leg.homes]",
      ["30: limbs.leg.homes: unknown key; "
       "allowed here: chain, generalised, home, inputs, joints, links, points, repeat", "? did you mean 'home'?"]),

@@ -29,7 +29,8 @@ def test_the_example_is_a_mechanism() -> None:
 MODELS = [
     schema.FileEntry, schema.ParameterEntry, schema.PlatformEntry, schema.LimbEntry, schema.Repeat, schema.InputEntry,
     schema.InputTable, schema.GeneralisedEntry, schema.ChainEntry, schema.WorkspaceEntry, schema.ModesEntry,
-    schema.Cone, *schema.JOINT_ENTRIES.values(),
+    schema.Cone, schema.MaterialEntry, schema.ProfileEntry, schema.GravityEntry, schema.LinkEntry,
+    schema.ActuatorEntry, schema.FrictionEntry, schema.ToleranceEntry, *schema.JOINT_ENTRIES.values(),
 ]  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from assur.model.file.build_chains import build_chains, build_generalised
 from assur.model.file.build_inputs import build_home, build_inputs
 from assur.model.file.build_joints import JointVectors, build_joint
 from assur.model.file.build_letters import build_angles, build_modes, build_points
+from assur.model.file.build_machine import MACHINE_TABLES, build_machine
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.graph_checks import check_graph
@@ -97,6 +98,7 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
         sections=_sections(file, numbers),
         description=description,
         overrides=dict(overrides),
+        machine=build_machine(file, tables, scope, geometry, (joints, drives)),
     )
     check_graph(record, tables, faults)
     return record
@@ -104,7 +106,8 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
 
 def _check_size(file: schema.FileEntry, faults: Faults) -> None:
     """Limbs count as often as they repeat."""
-    most = {**dict.fromkeys(("links", "inputs", "generalised", "points", "home"), _OTHERS), **MOST}
+    others = ("links", "inputs", "generalised", "points", "home", *MACHINE_TABLES)
+    most = {**dict.fromkeys(others, _OTHERS), **MOST}
     for table, limit in most.items():
         count = len(file.inputs.entries if table == "inputs" else getattr(file, table))
         count += sum(len(getattr(limb, table, ())) * repeated(limb) for limb in file.limbs.values())

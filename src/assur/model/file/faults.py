@@ -12,7 +12,7 @@ from assur.model.file.key_path import KeyPath, path_text
 if TYPE_CHECKING:
     from assur.model.file.toml_source import TomlSource
 
-_SHOWN = 24
+_SHOWN = 28
 MOST = 100
 """So many faults are told one by one; who has more has one cause for all of them."""
 _LONG = 400

@@ -22,6 +22,10 @@ _TABLES: dict[str, type[schema.Entry]] = {
     "generalised": schema.GeneralisedEntry,
     "chains": schema.ChainEntry,
     "points": schema.PointEntry,
+    "materials": schema.MaterialEntry,
+    "profiles": schema.ProfileEntry,
+    "actuators": schema.ActuatorEntry,
+    "tolerances": schema.ToleranceEntry,
 }
 _PASSES = 12
 _REFERENCES = ("inputs", "home")
@@ -84,7 +88,7 @@ def _entry(path: KeyPath) -> KeyPath:
     """The smallest part that can be cut out: one entry of a table, else a table."""
     if path[0] == "limbs":
         return path[: 3 if len(path) > 2 and path[2] in ("repeat", "chain") else 4]
-    return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles") else path[:1]
+    return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles", "clearances") else path[:1]
 
 
 def _take(data: dict[str, Any], path: KeyPath) -> tuple[dict[str, Any], Any]:
@@ -157,6 +161,12 @@ def allowed_keys(path: KeyPath, data: dict[str, Any]) -> tuple[str, ...]:
             model = schema.StandsFor
         case (str(table), _) if table in _TABLES:
             model = _TABLES[table]
+        case ("actuators", _, "friction"):
+            model = schema.FrictionEntry
+        case ("gravity",):
+            model = schema.GravityEntry
+        case ("payload",):
+            model = schema.WeightEntry
         case ("platform",):
             model = schema.PlatformEntry
         case ("modes",):

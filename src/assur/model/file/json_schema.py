@@ -10,7 +10,7 @@ from typing import Any
 
 from assur.model.file.schema import FileEntry
 from assur.model.file.texts import MAX_NAME
-from assur.model.file.values import AXES, DEFINITION, NAME_PATTERN, PLAIN_PATTERN
+from assur.model.file.values import AXES, DEFINITION, LINK_PATTERN, NAME_PATTERN, PLAIN_PATTERN
 
 Schema = dict[str, Any]
 
@@ -40,6 +40,10 @@ DEFINITIONS: dict[str, Schema] = {
         "description": "The value of a joint; of a joint with several components a list of them.",
         "anyOf": [_VALUE, {"type": "array", "items": _VALUE}],
     },
+    "number": {"description": "A number, in SI units.", "type": "number"},
+    "two_numbers": _list_of({"type": "number"}, 2, "Two numbers, in SI units."),
+    "inertia": _list_of({"type": "number"}, 6, "xx, yy, zz, xy, xz, yz, in kg m2."),
+    "bar_ends": _list_of({"type": "string"}, 2, "Two joints."),
     "sense": {"description": "1 or -1.", "enum": [1, -1]},
     "mechanism_name": {
         "description": "Letters, digits, _ and -.",
@@ -54,6 +58,12 @@ DEFINITIONS: dict[str, Schema] = {
         "maxLength": MAX_NAME,
         "pattern": NAME_PATTERN,
     },
+    "link_name": {
+        "description": "A name; of a template's link in one of its limbs leg1.rod.",
+        "type": "string",
+        "maxLength": MAX_NAME,
+        "pattern": LINK_PATTERN,
+    },
     "plain_name": {
         "description": "A letter, then letters, digits, _.",
         "type": "string",
@@ -61,7 +71,7 @@ DEFINITIONS: dict[str, Schema] = {
         "pattern": PLAIN_PATTERN,
     },
 }
-_PATTERNS = {NAME_PATTERN: "name", PLAIN_PATTERN: "plain_name"}
+_PATTERNS = {LINK_PATTERN: "link_name", NAME_PATTERN: "name", PLAIN_PATTERN: "plain_name"}
 
 
 def json_schema() -> Schema:

@@ -58,6 +58,7 @@ class Tables:
     Attributes:
         broken: table -> full names of entries that are in the file but not in form; they exist, so that
             whoever refers to them is not blamed.
+        single_links: what stands outside the templates about a link of one limb.
         unfinished: templates that do not say how often they repeat, a fault as well.
     """
 
@@ -68,6 +69,7 @@ class Tables:
     chains: dict[str, Placed[schema.ChainEntry]] = field(default_factory=dict)
     points: dict[str, Placed[schema.PointEntry]] = field(default_factory=dict)
     home: dict[str, Placed[tuple[Formula, ...]]] = field(default_factory=dict)
+    single_links: dict[str, Placed[schema.LinkEntry]] = field(default_factory=dict)
     instances: tuple[Instance, ...] = ()
     broken: Mapping[str, frozenset[str]] = field(default_factory=dict)
     unfinished: frozenset[str] = frozenset()
@@ -85,7 +87,8 @@ def expand(description: Description, faults: Faults) -> Tables:
     for table in (*_REPEATED, "chains"):
         entries = file.inputs.entries if table == "inputs" else getattr(file, table)
         for name, entry in entries.items():
-            getattr(tables, table)[name] = Placed(name, entry, (table, name))
+            alone = table == "links" and "." in name
+            getattr(tables, "single_links" if alone else table)[name] = Placed(name, entry, (table, name))
     for limb, group in instances.items():
         for instance in group:
             _repeat(tables, file.limbs[limb], instance)

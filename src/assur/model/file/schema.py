@@ -7,21 +7,28 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StrictBool
 
 from assur.model.file.values import (
+    DOWN,
     ZERO,
     Axis,
+    BarEnds,
     Format,
     HomeValue,
+    Inertia,
+    LinkName,
     MechanismName,
     Name,
+    Number,
     PlainName,
     Range,
     Sense,
     TwoAxes,
+    TwoNumbers,
     Value,
     Vector,
+    bound_alone,
 )
 
 
@@ -41,10 +48,78 @@ class ParameterEntry(Entry):
     drawn_only: StrictBool = False
 
 
-class LinkEntry(Entry):
-    """A rigid body."""
+class MaterialEntry(Entry):
+    """What bars are made of: density in kg/m3, E in Pa, Poisson's ratio nu."""
+
+    density: Number | None = None
+    E: Number | None = None
+    nu: Number | None = None
+
+
+class ProfileEntry(Entry):
+    """A cross-section, in m: round, tube or box; or its area and moments."""
+
+    round: Number | None = None
+    tube: TwoNumbers | None = None
+    box: TwoNumbers | None = None
+    up: Axis | None = None
+    A: Number | None = None
+    Iy: Number | None = None
+    Iz: Number | None = None
+    J: Number | None = None
+    Ay: Number | None = None
+    Az: Number | None = None
+
+
+class GravityEntry(Entry):
+    """Where things fall, and how fast, in m/s2."""
+
+    direction: Axis = DOWN
+    value: Number = 9.81
+
+
+class WeightEntry(Entry):
+    """A mass in kg, its centre in the frame of its link, its inertia about it in kg m2."""
+
+    mass: Number | None = None
+    centre: Vector | None = None
+    inertia: Inertia | None = None
+
+
+class LinkEntry(WeightEntry):
+    """A rigid body; what it weighs, and what it bends by."""
 
     meaning: str = ""
+    profile: str | None = None
+    material: str | None = None
+    kg_per_m: Number | None = None
+    rigid: StrictBool = False
+    up: Axis | None = None
+    bars: Annotated[tuple[BarEnds, ...], Field(min_length=1, max_length=60)] | None = None
+
+
+class FrictionEntry(Entry):
+    """Friction of an input, in N or N m, and per speed."""
+
+    coulomb: Number = 0.0
+    viscous: Number = 0.0
+
+
+class ActuatorEntry(Entry):
+    """What drives an input: N/m or N m/rad, N or N m, m/s or rad/s, kg or kg m2."""
+
+    stiffness: Number | None = None
+    force: Number | None = None
+    speed: Number | None = None
+    rotor: Number = 0.0
+    friction: FrictionEntry = FrictionEntry()
+
+
+class ToleranceEntry(Entry):
+    """A bound in the unit of what it belongs to, or a standard deviation."""
+
+    bound: Value | None = None
+    sigma: Value | None = None
 
 
 class JointEntry(Entry):
@@ -247,6 +322,9 @@ class WorkspaceEntry(Entry):
     sections: tuple[Value, ...] = ()
 
 
+ToleranceValue = Annotated[ToleranceEntry, BeforeValidator(bound_alone)]
+
+
 class Repeat(Entry):
     """How often a limb is there, about which axis, and where."""
 
@@ -280,7 +358,7 @@ class FileEntry(Entry):
     base: str | None = None
     platform: PlatformEntry | None = None
     parameters: dict[PlainName, ParameterEntry] = {}
-    links: dict[Name, LinkEntry] = {}
+    links: dict[LinkName, LinkEntry] = {}
     joints: dict[Name, AnyJoint] = {}
     limbs: dict[Name, LimbEntry] = {}
     inputs: InputTable = Field(default_factory=lambda: InputTable())
@@ -291,3 +369,10 @@ class FileEntry(Entry):
     modes: ModesEntry = ModesEntry()
     workspace: WorkspaceEntry = WorkspaceEntry()
     home: dict[str, HomeValue] = {}
+    materials: dict[PlainName, MaterialEntry] = {}
+    profiles: dict[PlainName, ProfileEntry] = {}
+    gravity: GravityEntry | None = None
+    payload: WeightEntry | None = None
+    actuators: dict[str, ActuatorEntry] = {}
+    tolerances: dict[str, ToleranceValue] = {}
+    clearances: dict[str, Value] = {}

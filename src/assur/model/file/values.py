@@ -21,6 +21,9 @@ AXES = {
 }  # fmt: skip
 PLAIN_PATTERN = rf"^(?!(?:{'|'.join(RESERVED)})$)[A-Za-z_][A-Za-z0-9_]*$"
 NAME_PATTERN = PLAIN_PATTERN.removesuffix("$") + "'*$"
+LINK_PATTERN = NAME_PATTERN.removesuffix("$") + r"(\.[A-Za-z_][A-Za-z0-9_]*'*)?$"
+LARGEST_NUMBER = 1e30
+"""Moduli in Pa are the largest numbers that anybody writes, and far below it."""
 DEFINITION = "definition"
 """Key by which a JSON Schema names one of its definitions until it is written."""
 
@@ -132,6 +135,26 @@ def _mechanism_name(value: str) -> str:
     return value
 
 
+def _number(value: object) -> float:
+    """A plain number, in SI units: no formula, whose parameters have the file's unit."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise refuse(shown(value), "allowed: a number, in SI units")
+    if not _is_finite(value) or abs(value) > LARGEST_NUMBER:
+        raise refuse(shown(value), f"allowed: a finite number up to {LARGEST_NUMBER:g}")
+    return float(value)
+
+
+def bound_alone(value: object) -> object:
+    """A bound, or a table that says more."""
+    return value if isinstance(value, dict) else {"bound": value}
+
+
+def _link_name(value: str) -> str:
+    """A link, or one of a template's links in one of its limbs."""
+    limb, dot, own = value.rpartition(".")
+    return f"{_name(limb)}.{_name(own)}" if dot else _name(value)
+
+
 def _format(value: object) -> object:
     if value != 1 or not isinstance(value, int) or isinstance(value, bool):
         raise refuse(shown(value), "allowed: 1, the format that this version reads")
@@ -162,6 +185,16 @@ PlainName = Annotated[
 ]
 HomeValue = Annotated[tuple[Value, ...], BeforeValidator(_components), _described("home_value")]
 Sense = Annotated[int, PlainValidator(_sense), _described("sense")]
+LinkName = Annotated[str, AfterValidator(_link_name), WithJsonSchema({"type": "string", "pattern": LINK_PATTERN})]
+Number = Annotated[float, PlainValidator(_number), _described("number")]
+TwoNumbers = Annotated[tuple[Number, Number], _listed(2, "a list of two numbers"), _described("two_numbers")]
+Inertia = Annotated[
+    tuple[Number, Number, Number, Number, Number, Number],
+    _listed(6, "a list [xx, yy, zz, xy, xz, yz]"),
+    _described("inertia"),
+]
+BarEnds = Annotated[tuple[str, str], _listed(2, "a list of two joints"), _described("bar_ends")]
 ZERO = (parse("0"), parse("0"), parse("0"))
+DOWN = (parse("0"), parse("0"), parse("-1"))
 MechanismName = Annotated[str, AfterValidator(_mechanism_name), _described("mechanism_name")]
 Format = Annotated[Any, PlainValidator(_format), _described("format")]

@@ -1,0 +1,1 @@
+"""From kinematics to a machine: masses, forces of the actuators, reactions in the joints."""
