@@ -1,5 +1,6 @@
 """Straight-line code of a kernel gives the bits that a walk through its text gives, over every plain number type."""
 
+import tracemalloc
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -98,3 +99,16 @@ def test_true_is_not_one():
     kernel = names_of("def f(ns, x, flag):\n    return x if flag is True else -x\n", Path("k.py"))["f"]
     answers = [kernel(Floats(), 2.0, flag) for flag in (1, True) for _ in range(9)]
     assert answers == [-2.0] * 9 + [2.0] * 9
+
+
+def test_long_arrays_are_given_back_before_the_answer():
+    lines = "\n".join(f"    x{k + 1} = x{k} * x{k} + p" for k in range(40))
+    kernel = names_of(f"def polynomial(ns, p, x0):\n{lines}\n    return x40\n", FILE)["polynomial"]
+    values = np.linspace(0.0, 0.5, 100_000)
+    for _ in range(REPAID):
+        kernel(Floats(), 0.1, values)
+    tracemalloc.start()
+    kernel(Floats(), 0.1, values)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 6 * values.nbytes

@@ -130,18 +130,31 @@ _TEXT = {"+": "{} + {}", "-": "{} - {}", "*": "{} * {}", "/": "{} / {}", "negati
 
 
 def _compiled(tape: Tape, count: int) -> Callable[..., Any]:
-    """The tape as a function of Python, of lines that are written here."""
-    lines, varying = ["def run(given, root):"], 0
+    """The tape as a function of Python, of lines that are written here.
+
+    A name is given anew once its value has no more use, so that long arrays are given back while they are at hand.
+    """
+    results = [tape.outputs[str(k)] for k in range(count)]
+    last = {argument: k for k, operation in enumerate(tape.operations) for argument in operation.arguments}
+    last |= dict.fromkeys(results, len(tape.operations))
+    lines, free, names = ["def run(given, root):"], list[str](), dict[int, str]()
+    varying = 0
     for k, operation in enumerate(tape.operations):
+        used = [names[n] for n in operation.arguments]
+        free += dict.fromkeys(names[n] for n in operation.arguments if last[n] == k)
+        names[k] = free.pop() if free else f"v{k}"
         if operation.name == "varying":
-            lines.append(f"    v{k} = given[{varying}]")
+            text = f"given[{varying}]"
             varying += 1
         elif operation.name == "number":
-            lines.append(f"    v{k} = {operation.number!r}")
+            text = repr(operation.number)
         else:
-            lines.append(f"    v{k} = {_TEXT[operation.name].format(*(f'v{n}' for n in operation.arguments))}")
-    lines.append(f"    return [{', '.join(f'v{tape.outputs[str(k)]}' for k in range(count))}]")
-    names: dict[str, Any] = {"inf": float("inf"), "nan": float("nan")}
-    exec(compile("\n".join(lines), "<kernel>", "exec"), names)
-    run: Callable[..., Any] = names["run"]
+            text = _TEXT[operation.name].format(*used)
+        lines.append(f"    {names[k]} = {text}")
+        if k not in last:
+            free.append(names[k])
+    lines.append(f"    return [{', '.join(names[k] for k in results)}]")
+    known: dict[str, Any] = {"inf": float("inf"), "nan": float("nan")}
+    exec(compile("\n".join(lines), "<kernel>", "exec"), known)
+    run: Callable[..., Any] = known["run"]
     return run
