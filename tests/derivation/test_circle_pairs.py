@@ -94,3 +94,22 @@ def test_the_proof_is_verified_and_a_changed_one_refused(capsys):
     problem["results"]["R33"] = f"-({problem['results']['R33']})"
     with pytest.raises(RefusedError, match="R33"):
         verify_derivation(json.dumps(document).encode(), text)
+
+
+@pytest.mark.deep
+def test_a_point_beside_the_plane_of_the_balls_is_found_too(tmp_path):
+    text = load_record("three_rps").file.read_text(encoding="utf-8")
+    path = tmp_path / "mechanism.toml"
+    path.write_text(text.replace('link = "platform" ', 'link = "platform"\npoint = [0, 0, 40] ', 1), encoding="utf-8")
+    middle, beside = (poses(analytic_solution(load_record(own), "direct"), ALL_REAL) for own in ("three_rps", path))
+    across = 40.0 * np.prod(np.cos(np.radians(middle[:, 1:])), axis=1)
+    assert np.sort(middle[:, 0] + across) == pytest.approx(beside[:, 0], abs=1e-4)
+
+
+@pytest.mark.deep
+def test_balls_on_lines_are_named_and_counted(tmp_path, capsys):
+    draft("R[y] P[z] S", tmp_path)
+    assert main(["derive", str(tmp_path / "draft.toml"), "--problem", "direct", "--json"]) == 5
+    (problem,) = json.loads(capsys.readouterr().out)["problems"]
+    assert (problem["status"], problem["count"]["solutions"]) == ("not_derived", 8)
+    assert problem["sides"]["platform_12"] == ["leg1.C", "leg2.C"]

@@ -147,7 +147,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         )
         return DerivedProblem(
             problem, "not_derived", str(error), None, None, tuple(_reasons(error.placed)), (*record.generalised,),
-            _sets(error.sets), {}, {}, resists=resists, left_out=(*left_out(error.placed),),
+            _sets(error.sets), {}, {}, resists=resists, left_out=(*left_out(error.placed),), sides=error.placed.sides,
         )  # fmt: skip
     except NotDerivedError as error:
         return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
@@ -156,7 +156,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         _sets(solution.sets, ReachMeanings(solution)), {own.symbol.name: str(own.formula) for own in solution.lengths},
         dict(_results(solution)), solution.group.sentence if solution.group else "",
         square_roots="yes" if solution.eliminant is None else "no" if _no_tower(solution) else "open",
-        components=_components(solution),
+        components=_components(solution), sides=solution.placed.sides,
         left_out=(*left_out(solution.placed),),
         vanish_at_home=tuple(map(str, conditions_at_home(solution))),
     )  # fmt: skip
@@ -262,6 +262,7 @@ def _shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         derived = part.status == "derived"
         yield heading(f"{data.mechanism}, {part.problem}: {f'{part.branches} branches' if derived else 'not derived'}")
         yield from (f"{k}. {own.text}" for k, own in enumerate(part.reasons, start=1))
+        yield from (f"{name} is the vector from {start} to {end}" for name, (start, end) in part.sides.items())
         for own in part.sets:
             yield ""
             yield f"{' and '.join(own.links)}: {own.roots} roots"

@@ -17,6 +17,8 @@ from assur.derivation.symbols import GivenSymbols
 from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, subtract
 
 CORNERS = 3
+SIDES = ("12", "23", "31")
+"""Corners between which the sides of a triangle are."""
 
 
 @dataclass(frozen=True)
@@ -39,27 +41,30 @@ class BallTriangle:
         a, b, c = self.corners
         return subtract(b, a), subtract(c, b), subtract(a, c)
 
+    def ends(self, side: str) -> tuple[str, str]:
+        """The joints from which and to which a side is, by the numbers of its corners."""
+        first, last = (self.joints[int(corner) - 1] for corner in side)
+        return first, last
+
     @property
     def squares(self) -> tuple[sympy.Expr, ...]:
         """Of the lengths of the sides."""
         return tuple(sympy.expand(dot(side, side)) for side in self.sides)
 
-    @property
-    def across(self) -> tuple[Vector, sympy.Expr]:
-        """The first side across the last, and its square."""
+    def beside(self, vector: Vector) -> sympy.Expr:
+        """Of the first side across the last in a vector, all in the body's frame."""
         first, _, last = self.sides
         normal = cross(first, last)
-        return normal, sympy.expand(dot(normal, normal))
+        return sympy.simplify(dot(normal, vector) / sympy.expand(dot(normal, normal)))
 
-    def shares(self, vector: Vector) -> tuple[sympy.Expr, sympy.Expr, Vector]:
-        """Of the first and of the last side in a vector, both in the body's frame, and what is left beside them."""
+    def shares(self, vector: Vector) -> tuple[sympy.Expr, sympy.Expr]:
+        """Of the first and of the last side in a vector, both in the body's frame."""
         u, _, w = self.sides
         uu, uw, ww, uv, wv = (dot(a, b) for a, b in ((u, u), (u, w), (w, w), (u, vector), (w, vector)))
         size = sympy.expand(uu * ww - uw * uw)
         first = sympy.simplify((uv * ww - wv * uw) / size)
         last = sympy.simplify((wv * uu - uv * uw) / size)
-        x, y, z = (own - first * a - last * b for own, a, b in zip(vector, u, w, strict=True))
-        return first, last, (x, y, z)
+        return first, last
 
 
 def ball_triangles(

@@ -6,7 +6,8 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from assur.derivation.loop_equations import SIDES, LoopEquations
+from assur.derivation.ball_triangles import SIDES
+from assur.derivation.loop_equations import LoopEquations
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.rotations_at_home import rotations_at_home, turned_about
 from assur.derivation.symbols import GivenSymbols, circle_of

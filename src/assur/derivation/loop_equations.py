@@ -21,7 +21,7 @@ from typing import Literal
 
 import sympy
 
-from assur.derivation.ball_triangles import BallTriangle
+from assur.derivation.ball_triangles import SIDES, BallTriangle
 from assur.derivation.definitions import Definition
 from assur.derivation.dimension_relations import dimension_relations
 from assur.derivation.hinges import Hinge
@@ -34,9 +34,6 @@ from assur.joints.steps import UNTURNED, about
 from assur.model.mechanism import Joint
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract, transposed
-
-SIDES = ("12", "23", "31")
-"""Corners between which the sides of a triangle are."""
 
 
 @dataclass(frozen=True)
@@ -85,11 +82,12 @@ class LoopEquations:
         directions: unknowns of links that turn, and of rods.
         lengths: index in the joint values -> symbol of a length that is sought.
         strokes: such a length along a direction that turns -> the circle by which it turns. It is a coefficient.
-        point: the platform's point as linear forms.
+        point: the platform's point as linear forms, but for what of it is beside the plane of three balls.
         relations: dimensions that follow from others, without which no loop closes.
         carriers: circles of links that carry axes of other links which turn. They are coefficients.
         shared: of each of the first equations the axis and what it is taken along.
         framed: circles of links in whose frame loops are written, as several joints slide on each.
+        beside: that of the platform's point, along the product of two sides.
         oblique: length of a slider oblique to the axis about which it turns -> its symbol in what turns. Both are one.
     """
 
@@ -103,6 +101,7 @@ class LoopEquations:
     shared: tuple[SharedAxis, ...] = ()
     framed: tuple[UnknownDirection, ...] = ()
     oblique: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
+    beside: Vector = (0, 0, 0)
 
     @property
     def axes(self) -> int:
@@ -146,7 +145,7 @@ class _Loops:
             start, end = self._points(joint)
             reached = add(self._place(joint.parent, start, point), self._slid(joint))
             gaps.append(subtract(reached, self._place(joint.child, end, point)))
-        platform = self._place(self.record.platform.link, self.symbols.geometry.platform, point)
+        platform, beside = self._platform(point)
         shared = [own for turn in self.placed.hinges for own in self._apart(turn)]
         framed = self._framed()
         gaps = [self._in_frame(gap, framed) for gap in gaps]
@@ -183,6 +182,7 @@ class _Loops:
             tuple(own for _, own in axes),
             framed,
             dict(self.oblique),
+            beside,
         )
 
     def _framed(self) -> tuple[UnknownDirection, ...]:
@@ -373,10 +373,26 @@ class _Loops:
             return self._in_triangle(link, own.triangle, turned)
         return self._turned(own, turned)
 
+    def _platform(self, point: Mapping[str, tuple[Vector, Vector]]) -> tuple[Vector, Vector]:
+        """The platform's point, and what of it is along the product of two sides."""
+        link, at = self.record.platform.link, self.symbols.geometry.platform
+        triangle, constant = self.placed.links[link].triangle, self.placed.links[link].constant
+        if triangle is None:
+            return self._place(link, at, point), (0, 0, 0)
+        known, place = point[link]
+        vector = apply(constant, subtract(at, known))
+        first, last = (own.unknowns for own in self.sides[triangle.number][::2])
+        share = triangle.beside(vector)
+        return add(place, self._of_sides(triangle, vector)), scaled(cross((*first,), (*last,)), share)
+
     def _in_triangle(self, link: str, triangle: BallTriangle, vector: Vector) -> Vector:
-        first, last, beside = triangle.shares(vector)
-        if not all(map(self.symbols.witness.is_zero, beside)):
-            raise NotDerivedError(f"{link} has a point beside the plane of {', '.join(triangle.joints)}")
+        if not self.symbols.witness.is_zero(triangle.beside(vector)):
+            raise NotDerivedError(f"{link} has a joint beside the plane of {', '.join(triangle.joints)}")
+        return self._of_sides(triangle, vector)
+
+    def _of_sides(self, triangle: BallTriangle, vector: Vector) -> Vector:
+        """What a vector has of the first and of the last side."""
+        first, last = triangle.shares(vector)
         (a, b, c), _, (x, y, z) = (own.unknowns for own in self.sides[triangle.number])
         return add(scaled((a, b, c), first), scaled((x, y, z), last))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from assur.derivation.ball_triangles import BallTriangle, ball_triangles
+from assur.derivation.ball_triangles import SIDES, BallTriangle, ball_triangles
 from assur.derivation.constraint_reasons import ConstraintReason, held
 from assur.derivation.exact_vectors import ExactVectors
 from assur.derivation.hinges import Hinge, hinges, point_on, rods_of, slides
@@ -54,6 +54,15 @@ class LinkOrientations:
     reasons: tuple[ConstraintReason, ...]
     hinges: tuple[Hinge, ...]
     named: NamedDirections
+
+    @property
+    def sides(self) -> dict[str, tuple[str, str]]:
+        """Vector along the side of a triangle -> the ball joints that it is from and to."""
+        named: dict[BallTriangle, str] = {}
+        for link, own in self.links.items():
+            if own.triangle is not None:
+                named.setdefault(own.triangle, link.replace(".", "_"))
+        return {f"{name}_{ends}": own.ends(ends) for own, name in named.items() for ends in SIDES}
 
 
 def _with_names(own: Orientation, named: NamedDirections) -> Orientation:

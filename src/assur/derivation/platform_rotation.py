@@ -53,12 +53,10 @@ def _of_triangle(solution: AnalyticSolution, own: Orientation, link: str) -> Mat
         return own.constant
     sides = [part.unknowns for part in solution.loops.directions if part.kind == "side" and link in part.links]
     (a, b, c), _, (x, y, z) = sides
-    across, size = own.triangle.across
     columns: list[Vector] = []
     for axis in UNTURNED:
         vector = apply(own.constant, axis)
-        first, last, _ = own.triangle.shares(vector)
-        beside = sympy.simplify(sum(p * q for p, q in zip(across, vector, strict=True)) / size)
+        (first, last), beside = own.triangle.shares(vector), own.triangle.beside(vector)
         column = add(scaled((a, b, c), first), scaled((x, y, z), last))
         if beside != 0:
             column = add(column, scaled(cross((a, b, c), (x, y, z)), beside))

@@ -160,8 +160,7 @@ class PrintedLetters:
                 parts = ", ".join(self.letters[symbol].latex for symbol in unknown.unknowns)
                 yield Nomenclature(f"{self.angle(unknown)} = ({parts})", f"direction of {links}, a unit vector", "")
             elif unknown.kind == "side" and own.triangle is not None:
-                names = dict(zip("123", map(joint_letter, own.triangle.joints), strict=True))
-                start, end = (names[corner] for corner in unknown.name[-2:])
+                start, end = map(joint_letter, own.triangle.ends(unknown.name[-2:]))
                 yield Nomenclature(self.angle(unknown), f"vector from ${start}$ to ${end}$, on {links}", record.unit)
             elif own.axis is not None and self._named(unknown) is None:
                 yield Nomenclature(self.angle(unknown), f"angle of {links} about {axis}", record.angle)

@@ -195,7 +195,8 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     backward = tuple(Definition(symbol, formula) for symbol, formula in known.items())
     for own in backward:
         witness.define(own.symbol, own.formula)
-    x, y, z = (value_of(_without_unknowns(form, sets, witness)) for form in loops.point)
+    point = (value_of(_without_unknowns(form, sets, witness)) for form in loops.point)
+    x, y, z = (part + beside for part, beside in zip(point, loops.beside, strict=True))
     return AnalyticSolution(symbols, placed, loops, sets, backward, (x, y, z))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from assur.results.answers.answer import ABSENT, Absent, Answer
@@ -229,11 +229,12 @@ class DerivedProblem:
 
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have; `components` what it is a product
-    of. `assumed` are the parallelograms that stay such; `left_out` says in which other way links may stand;
-    `vanish_at_home` are conditions and radicands that are zero at the file's home; `lengths` are found after the sets.
-    `proof` is there where it is asked for, or `not_proved` says why it is not. `square_roots`: whether these alone
-    solve it; "no" is proved. `resists` is the set that is not solved; `count` the number of solutions, found without
-    any of the elimination; `closed` what holds where conditions do not, derived modulo a prime.
+    of. `sides` are vectors from one ball joint of a link to another. `assumed` are the parallelograms that stay such;
+    `left_out` says in which other way links may stand; `vanish_at_home` are conditions and radicands that are zero at
+    the file's home; `lengths` are found after the sets. `proof` is there where it is asked for, or `not_proved` says
+    why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set that is not
+    solved; `count` the number of solutions, found without any of the elimination; `closed` what holds where conditions
+    do not, derived modulo a prime.
     """
 
     problem: str
@@ -256,6 +257,7 @@ class DerivedProblem:
     left_out: tuple[str, ...] = ()
     vanish_at_home: tuple[str, ...] = ()
     components: DerivedComponents | Absent = ABSENT
+    sides: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
