@@ -186,9 +186,9 @@ def _fault(record: MechanismRecord) -> str:
 
 def _working(drawn: Draft, knees: Sequence[Knee]) -> dict[str, str]:
     limbs = [
-        (knee, f"{template.name}{number}", angle)
+        (knee, f"{template.name}{number}", angle, turn)
         for template, knee in zip(drawn.templates, knees, strict=True)
-        for number, angle in enumerate(template.angles, 1)
+        for number, (angle, turn) in enumerate(zip(template.angles, template.turns, strict=True), 1)
     ]
     return {f"k{number}": knee_formula(*limb) for number, limb in enumerate(limbs, 1)}
 

@@ -109,7 +109,9 @@ _AXES = re.compile(r"\[[^\]]*\]|@\w+|\s")
 
 
 def _parameters(draft: Draft) -> list[str]:
-    listed = [*draft.dimensions, *(dimension for template in draft.templates for dimension in template.dimensions)]
+    listed = [*draft.dimensions]
+    for template in draft.templates:
+        listed += [*template.dimensions, *template.turn_dimensions]
     width = max((len(dimension.name) for dimension in listed), default=0)
     return [
         "[parameters]                         # change them as you like",
@@ -126,11 +128,10 @@ def _dimension(dimension: Dimension, width: int) -> str:
 def _limb(template: Template, driven: Mapping[str, DrivenJoint], *, drawn: bool, chained: bool) -> Iterator[list[str]]:
     top = f"limbs.{template.name}"
     names = ", ".join(f"{template.name}{number}" for number, _ in enumerate(template.members, 1))
-    angles = (
-        f"count = {len(template.angles)}"
-        if template.even
-        else f"angles = [{', '.join(f'{angle:.12g}' for angle in template.angles)}]"
+    places = (
+        f'"{turn}"' if turn else f"{angle:.12g}" for angle, turn in zip(template.angles, template.turns, strict=True)
     )
+    angles = f"count = {len(template.angles)}" if template.even else f"angles = [{', '.join(places)}]"
     yield [
         f"[{top}]".ljust(37)
         + f"# {names}: {template.text}"

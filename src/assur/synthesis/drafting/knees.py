@@ -54,8 +54,8 @@ def knee(chain: Chain, letters: Sequence[str]) -> Knee | None:
     return None if len(set(labels)) < len(labels) else Knee((rest[0][1], rest[1][1], rest[2][1]), axis)
 
 
-def knee_formula(bent: Knee, limb: str, angle: float) -> str:
-    """The formula whose sign is the sense of a knee, for a limb at an angle (deg).
+def knee_formula(bent: Knee, limb: str, angle: float, turn: str = "") -> str:
+    """The formula whose sign is the sense of a knee, for a limb at an angle (deg), or at the parameter `turn`.
 
     Of three points it is (q - p) x (s - q) along the axis, of two q - p along it.
 
@@ -63,20 +63,27 @@ def knee_formula(bent: Knee, limb: str, angle: float) -> str:
     '(leg1.B.x - leg1.A.x)*(leg1.C.y - leg1.B.y) - (leg1.B.y - leg1.A.y)*(leg1.C.x - leg1.B.x)'
     >>> knee_formula(Knee(("Ba", "Bb"), (0.0, 0.6, -0.8)), "leg1", 0.0)
     '0.6*(leg1.Bb.y - leg1.Ba.y) - 0.8*(leg1.Bb.z - leg1.Ba.z)'
+    >>> knee_formula(Knee(("Ba", "Bb"), (0.0, 1.0, 0.0)), "leg2", 26.6, "gamma2")
+    '-sin(gamma2)*(leg2.Bb.x - leg2.Ba.x) + cos(gamma2)*(leg2.Bb.y - leg2.Ba.y)'
     """
     points = [f"{limb}.{name}" for name in bent.points]
+    parts = [
+        _cross(points, across, aside) if len(points) > 2 else f"{points[1]}.{along} - {points[0]}.{along}"
+        for along, across, aside in zip("xyz", "yzx", "zxy", strict=True)
+    ]
     terms = [
-        (size, _cross(points, across, aside) if len(points) > 2 else f"{points[1]}.{along} - {points[0]}.{along}")
-        for size, along, across, aside in zip(_turned(bent.axis, angle), "xyz", "yzx", "zxy", strict=True)
+        (size, factor, part)
+        for shares, part in zip(_turned(bent.axis, angle, turn), parts, strict=True)
+        for size, factor in shares
         if abs(size) > DUST
     ]
-    if len(terms) == 1 and abs(terms[0][0] - 1.0) < DUST:
-        return terms[0][1]
+    if len(terms) == 1 and abs(terms[0][0] - 1.0) < DUST and not terms[0][1]:
+        return terms[0][2]
     formula = ""
-    for size, part in terms:
-        share = "" if abs(abs(size) - 1.0) < DUST else f"{round(abs(size), 12):.12g}*"
+    for size, factor, part in terms:
+        number = "" if abs(abs(size) - 1.0) < DUST else f"{round(abs(size), 12):.12g}*"
         sign = (" - " if size < 0 else " + ") if formula else ("-" if size < 0 else "")
-        formula += f"{sign}{share}({part})"
+        formula += f"{sign}{number}{factor}({part})"
     return formula
 
 
@@ -105,6 +112,11 @@ def _turns(element: object) -> bool:
     return isinstance(element, ChainJoint) and element.type is REVOLUTE and not element.general
 
 
-def _turned(axis: Vector, angle: float) -> Vector:
-    cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    return (cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2])
+def _turned(axis: Vector, angle: float, turn: str) -> tuple[Sequence[tuple[float, str]], ...]:
+    """Components along x, y and z of an axis turned about z, each a sum of numbers with factors."""
+    x, y, z = axis
+    if turn:
+        cosine, sine = f"cos({turn})*", f"sin({turn})*"
+        return ((x, cosine), (-y, sine)), ((x, sine), (y, cosine)), ((z, ""),)
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return ((c * x - s * y, ""),), ((s * x + c * y, ""),), ((z, ""),)

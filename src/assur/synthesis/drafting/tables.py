@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from assur.joints.joint_type import JointType
 from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.linear import Point
-from assur.topology.directions import Vector
+from assur.topology.directions import EXACT, Vector
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,10 @@ class Knee:
     axis: tuple[float, float, float]
 
 
+PLAIN = 15.0
+"""Degrees whose multiples are numbers in a file, as their cosines are square roots; other angles are parameters."""
+
+
 @dataclass(frozen=True)
 class Template:
     """A limb as a template of a file.
@@ -89,3 +93,21 @@ class Template:
     order: tuple[str, ...]
     knee: Knee | None = None
     home: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+
+    @property
+    def turns(self) -> tuple[str, ...]:
+        """For each limb the parameter that says where it stands around z; "" where a number does."""
+        start = "gamma" if self.name == "leg" else f"gamma{self.name}"
+        return tuple(
+            "" if min(angle % PLAIN, -angle % PLAIN) < EXACT else f"{start}{number}"
+            for number, angle in enumerate(self.angles, 1)
+        )
+
+    @property
+    def turn_dimensions(self) -> tuple[Dimension, ...]:
+        """These parameters."""
+        return tuple(
+            Dimension(turn, angle, f"limb {self.name}{number}: about Z, from limb {self.name}1", unit="deg")
+            for number, (angle, turn) in enumerate(zip(self.angles, self.turns, strict=True), 1)
+            if turn
+        )
