@@ -1,4 +1,7 @@
 import math
+import re
+import shlex
+from pathlib import Path
 
 import pytest
 
@@ -6,6 +9,9 @@ import assur
 from assur.results.json_text import plain
 from assur.synthesis.answers import answers
 from assur.synthesis.synthesis import synthesis
+
+PAGE = Path(__file__).parents[2] / "docs" / "topology.md"
+ROWS = re.findall(r"^\| `assur (synthesize .*?)` \| (.*?) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
 
 SMALL = ("--max-joints", "3", "--symmetric")
 
@@ -139,3 +145,16 @@ def test_more_than_a_million_combinations_want_a_word(assur_cli, monkeypatch):
     assert "--yes" in run.err
     assert assur_cli(*words, "--yes", "--json").json == every
     assert assur_cli(*words, "--symmetric").code == 0
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(("command", "names"), ROWS, ids=[names.partition(",")[0] for _, names in ROWS])
+def test_the_commands_of_the_page_find_the_known_mechanisms(assur_cli, command, names):
+    """All of those that it names, and no others."""
+    data = assur_cli(*shlex.split(command), "--json").json
+    assert sorted(name for item in data["mechanisms"] for name in item["names"]) == names.split(", ")
+
+
+def test_the_page_has_its_commands():
+    assert len(ROWS) == 7
+    assert len({name for _, names in ROWS for name in names.split(", ")}) == 16

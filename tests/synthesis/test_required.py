@@ -21,8 +21,15 @@ def test_its_twists_are_the_same_at_every_point(motion):
     assert np.linalg.matrix_rank(np.concatenate([twists, moved], axis=1)) == motion.dim
 
 
-@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
-def test_orientations_turn_about_its_rotation_only(motion):
+def test_a_platform_that_turns_in_every_way_takes_general_orientations():
+    found = MOTIONS["3T3R"].orientations(np.array([0.3, -1.0, 0.5]))
+    assert np.linalg.det(found) == pytest.approx(1)
+    assert not np.any(np.isclose(found[:, [0, 1, 2], [0, 1, 2]], 1))
+
+
+@pytest.mark.parametrize("name", [name for name, motion in MOTIONS.items() if len(motion.rotations) < 2])
+def test_orientations_turn_about_its_rotation_only(name):
+    motion = MOTIONS[name]
     found = motion.orientations(np.array([0.3, -1.0]))
     angles = np.arccos((np.trace(found, axis1=1, axis2=2) - 1) / 2)
     assert angles == pytest.approx([0.3, 1.0] if motion.rotations else [0.0, 0.0])
@@ -32,5 +39,5 @@ def test_orientations_turn_about_its_rotation_only(motion):
 
 def test_names_are_found_in_any_case_and_others_refused():
     assert motion_named(" 3t ") is MOTIONS["3T"]
-    with pytest.raises(UnknownNameError, match="unknown motion '4T'; there is: 2T1R, 3T, 3T1R"):
+    with pytest.raises(UnknownNameError, match="unknown motion '4T'; there is: 2T1R, 3T, 3T1R, 3T3R"):
         motion_named("4T")

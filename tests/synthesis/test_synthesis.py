@@ -203,6 +203,14 @@ def test_planar_mechanisms(motion, joints, actuators, name):
     assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
 
 
+def test_six_limbs_that_constrain_nothing():
+    found = synthesis("3T3R", max_joints=3, symmetric=True, actuators="leg")
+    (design,) = named(found, "gough_stewart")
+    declared = load_topology("gough_stewart").declared
+    assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
+    assert len(found.families) == 1
+
+
 def test_four_limbs_for_three_translations_and_a_rotation():
     found = synthesis("3T1R", 4, 3, symmetric=True)
     assert found.designs
@@ -230,7 +238,7 @@ def test_misuse_is_refused(words, message):
 
 
 def test_unknown_names_are_refused():
-    with pytest.raises(UnknownNameError, match="2T1R, 3T, 3T1R"):
+    with pytest.raises(UnknownNameError, match="2T1R, 3T, 3T1R, 3T3R"):
         synthesis("6T")
     with pytest.raises(UnknownNameError, match="base, leg"):
         synthesis(actuators="platform")

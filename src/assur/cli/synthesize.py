@@ -50,7 +50,8 @@ Numbered = tuple[int, "Design"]
 def synthesize(
     *,
     motion: Annotated[
-        str, Parameter(metavar="3T|3T1R|2T1R", help="T counts translations, R rotations about z; 3T if left out.")
+        str,
+        Parameter(metavar="3T|2T1R|3T1R|3T3R", help="T counts translations, R rotations, one about z; 3T if left out."),
     ] = "3T",
     limbs: Annotated[
         str | None,

@@ -162,7 +162,7 @@ def _frames(turns: Sequence[_Turn], motion: RequiredMotion) -> list[str]:
     last = TURNED if motion.rotations else BASE
     axes = [turns[block[0]].axis for block in blocks]
     wrapped = len(blocks) == 3 and not motion.rotations and _along(axes[0], axes[2])
-    simple = all(axes) and (len(blocks) <= 2 or wrapped)
+    simple = all(axes) and (len(blocks) <= 2 or wrapped) and len(motion.rotations) < 2
     frames, frame = [BASE], BASE
     for number, block in enumerate(blocks):
         frames += [f"inside {place}" for place in block[:-1]]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import cycle
 
 from assur.errors import UsageError
 from assur.kinematics.structure import linkage
@@ -12,13 +13,17 @@ from assur.model.registry import load_record, names, topology_names
 from assur.model.topologies import load_topology, means_topology
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.required import RequiredMotion
-from assur.topology.chains import Chain
+from assur.synthesis.words import AXES
+from assur.topology.chains import Chain, ChainJoint, Element
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
+from assur.topology.directions import NAMED
 from assur.topology.screws.recognition import recognised
 
 
 def known_mechanisms(motion: RequiredMotion) -> Mapping[Key, tuple[str, ...]]:
     """Names of built-in mechanisms by the canonical form of their limbs; how the limbs are placed makes no difference.
+
+    Axes that a limb leaves general are taken along x, y and z in turn, as a synthesis writes them.
 
     One with an inner loop that does not stand first in its limb is left out.
 
@@ -72,8 +77,20 @@ def _driven(chains: Sequence[Chain], names: Sequence[str]) -> tuple[DrivenLimb, 
     )
 
 
+def _upright(chain: Chain) -> Chain:
+    """The chain with its general axes along x, y and z in turn."""
+    turn = cycle(NAMED[name] for name in AXES)
+
+    def joint(old: Element) -> Element:
+        if isinstance(old, ChainJoint) and old.general:
+            return replace(old, axes=tuple(next(turn) for _ in old.axes))
+        return old
+
+    return Chain(tuple(map(joint, chain.elements)), chain.text)
+
+
 def _key(limbs: Sequence[DrivenLimb], motion: RequiredMotion) -> Key | None:
     try:
-        return mechanism_key(limb_key(limb.chain, motion, limb.driven) for limb in limbs) if limbs else None
+        return mechanism_key(limb_key(_upright(limb.chain), motion, limb.driven) for limb in limbs) if limbs else None
     except UsageError:  # an inner loop that does not stand first
         return None

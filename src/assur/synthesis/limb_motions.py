@@ -120,7 +120,7 @@ def _by_rules(chain: Chain, motion: RequiredMotion) -> Motion | Refusal:
     free = serial(chain, "free" if motion.rotations else "translation", chain.text)
     if isinstance(free, Refusal) or free.limb is None or not motion.rotations:
         return free
-    return motion_of(free.limb, Orientations(1, motion.rotations))
+    return motion_of(free.limb, Orientations(1, motion.rotations)) if len(motion.rotations) == 1 else free
 
 
 def _reason_by_rules(limb_motion: Motion, motion: RequiredMotion) -> Reason:

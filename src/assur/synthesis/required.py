@@ -43,10 +43,14 @@ class RequiredMotion:
         return np.array(columns).T
 
     def orientations(self, angles: FloatArray) -> FloatArray:
-        """Rotations (N, 3, 3) of the platform by angles (N,) in rad about its axis; identities where it has none."""
-        if not self.rotations:
-            return np.broadcast_to(np.eye(3), (len(angles), 3, 3))
-        return about_axis(np.array(self.rotations[0]), angles)
+        """Rotations (N, 3, 3) of the platform by angles (N,) in rad about its axes; identities where it has none.
+
+        About a second and a third axis it turns by the same angles in another order.
+        """
+        turned: FloatArray = np.broadcast_to(np.eye(3), (len(angles), 3, 3))
+        for place, axis in enumerate(self.rotations):
+            turned = turned @ about_axis(np.array(axis), np.roll(angles, place))
+        return turned
 
 
 _X, _Y, _Z = NAMED["x"], NAMED["y"], NAMED["z"]
@@ -57,6 +61,7 @@ MOTIONS = {
         RequiredMotion("3T", (_X, _Y, _Z)),
         RequiredMotion("3T1R", (_X, _Y, _Z), (_Z,), _Z),
         RequiredMotion("2T1R", (_X, _Y), (_Z,), _Z),
+        RequiredMotion("3T3R", (_X, _Y, _Z), (_X, _Y, _Z)),
     )
 }
 """Motions that can be asked for; what singles out a direction has it along z."""

@@ -101,7 +101,7 @@ def synthesis(
     that begin with an inner loop of a catalogue have two, one in each of its branches.
 
     Args:
-        motion: "3T", "3T1R" or "2T1R"; T counts translations, R rotations (about z).
+        motion: "3T", "2T1R", "3T1R" or "3T3R"; T counts translations, R rotations (one of them about z).
         limbs: number of limbs, by default the number of freedoms; half of it, rounded up, is the least.
         max_joints: of a limb, on the way through one branch of its inner loop.
         coupling: least and largest coupling degree, Eq. (6).

@@ -44,7 +44,12 @@ NOTHING = Begun()
 
 
 def words(
-    freedoms: int, joints: int, *, always: str = "", ball: bool = False, begun: Begun = NOTHING
+    freedoms: int,
+    joints: int,
+    *,
+    always: str = "",
+    ball: bool = False,
+    begun: Begun = NOTHING,
 ) -> Iterator[Word]:
     """Words with so many freedoms and no passive or idle freedom that shows in the word itself.
 
