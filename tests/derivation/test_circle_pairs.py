@@ -2,6 +2,8 @@
 
 import json
 import math
+import runpy
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -67,6 +69,37 @@ def test_its_components_are_two_quartics_each_root_with_a_mirror_image(three_rps
     own = three_rps.components
     assert [(part.degree, part.irreducible, part.no_tower) for part in own.parts] == [(4, True, True)] * 2
     assert (own.solutions, own.count, own.total) == (2, 16, "(4 + 4) x 2")
+
+
+def test_the_components_are_the_hand_written_quartics(three_rps, monkeypatch):
+    """These are in P, e = o r (1 - P) and e = R - rho sin for the leg of the angle: eight roots by two routes."""
+    own = three_rps.eliminant
+    leg = int(own.direction.name.removeprefix("leg").removesuffix("_cylinder"))
+    kernels = runpy.run_path(str(load_record("three_rps").file.parent / "closed_form.py"))
+    coefficients, dimensions = kernels["coefficients"], SimpleNamespace(R=200.0, r=120.0)
+    monkeypatch.setitem(coefficients.__globals__, "AWRY", tuple(float(k == leg) for k in (1, 2, 3)))
+    lengths = np.array([380.0, 391.0, 405.0])
+    sines = [
+        (dimensions.R - o * dimensions.r * (1.0 - np.roots(quartic[::-1]))) / lengths[leg - 1]
+        for o in (1, -1)
+        for quartic in [np.array(coefficients(np, dimensions, lengths, SimpleNamespace(o=o)), dtype=float)]
+    ]
+    places = np.cos(np.pi * (np.arange(9) + 0.5) / 9)
+    values = np.array([left_over(three_rps, lengths, sine) for sine in places])
+    roots = np.polynomial.chebyshev.chebroots(np.polynomial.chebyshev.chebfit(places, values / np.max(values), 8))
+    assert np.sort_complex(roots) == pytest.approx(np.sort_complex(np.concatenate(sines)), abs=1e-6)
+
+
+def left_over(solution, inputs, sine):
+    """The eliminant at a sine, with either cosine."""
+    own, home = solution.eliminant, solution.symbols.witness.home
+    values = {symbol: home[symbol] for symbol in solution.symbols.parameters.values()}
+    values |= dict(zip(solution.symbols.given, inputs, strict=True))
+    values |= dict(zip(own.direction.unknowns, (math.sqrt(1.0 - sine**2), sine), strict=True))
+    for step in (*own.known, *own.entries, *own.steps):
+        names = sorted(step.formula.free_symbols, key=str)
+        values[step.symbol] = sympy.lambdify(names, step.formula)(*(values[name] for name in names))
+    return values[own.steps[-1].symbol]
 
 
 @pytest.mark.deep
