@@ -9,6 +9,7 @@ from assur.errors import UsageError
 from assur.machine.masses import all_masses, masses
 from assur.model.machine_data import LinkData, MachineData, Material, Profile
 from assur.model.registry import load_record
+from catalogue import each
 
 STEEL = Material("steel", 7850.0, 210e9, 0.3)
 BAR = Profile("bar", "round", (0.02,), np.pi * 1e-4, 7.854e-9, 7.854e-9, 1.5708e-8)
@@ -85,3 +86,12 @@ def test_a_mass_beyond_reason_is_noted():
     assert masses(with_data("fivebar", {"rod1": LinkData(mass=1e6)})).notes == (
         "rod1 weighs 1e+06 kg; masses are in kg",
     )
+
+
+@pytest.mark.parametrize("name", each())
+def test_built_in_mechanisms_know_what_they_weigh_and_what_drives_them(name):
+    record = load_record(name)
+    assert all_masses(record).bodies.keys() == record.links.keys() - {record.base}
+    drives = [record.machine.actuators[record.coordinate_label(item.coordinate)] for item in record.drives]
+    assert all(item.stiffness and item.force and item.speed for item in drives)
+    assert any(word in record.file.read_text(encoding="utf-8") for word in ("machine: assumed", "else is assumed"))
