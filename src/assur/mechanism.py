@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from assur.kinematics.following.path import Path as Way
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
+    from assur.machine.forces import ActuatorForces
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
     from assur.singularity.verdict import Verdict
@@ -89,6 +90,21 @@ class Mechanism(MechanismRecord):
         from assur.kinematics.rates.acceleration import acceleration
 
         return acceleration(self, poses, input_rates, input_accelerations, mode)
+
+    def forces(
+        self,
+        poses: ArrayLike,
+        velocity: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        load: ArrayLike | None = None,
+        *,
+        gravity: bool = True,
+        mode: str | None = None,
+    ) -> ActuatorForces:
+        """Forces of the actuators, energies, terms of motion at poses (..., m): see `assur.machine.forces.forces`."""
+        from assur.machine.forces import forces
+
+        return forces(self, poses, velocity, acceleration, load, gravity=gravity, mode=mode)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""

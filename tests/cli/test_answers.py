@@ -26,6 +26,7 @@ TOLD = {
     "inverse": ("0", "0", "0"),
     "follow": ("--to", "1", "1", "0"),
     "singularity": ("--pose", "0", "0", "0"),
+    "forces": ("--pose", "0", "0", "0", "--no-gravity"),
     "indices": ("--pose", "0", "0", "0"),
     "export": ("-o", "own.xml"),
     "figures": ("--only", "structure", "--format", "svg", "-o", "figures"),

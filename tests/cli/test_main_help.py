@@ -5,7 +5,19 @@ from assur.cli.application import application
 
 COMMANDS = (
     *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "certify"),
-    *("verify", "audit", "figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize"),
+    *(
+        "verify",
+        "audit",
+        "figures",
+        "report",
+        "new",
+        "schema",
+        "export",
+        "crosscheck",
+        "indices",
+        "synthesize",
+        "forces",
+    ),
     *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),
 )
 

@@ -78,7 +78,7 @@ def pose_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
 
     For a quaternion the last three rows are the angular velocity in the base frame.
     """
-    return _rates(record.platform.pose, platform_frame(record, values)[0], platform_twists(record, values))
+    return twist_rates(record.platform.pose, platform_frame(record, values)[0], platform_twists(record, values))
 
 
 def pose_error(record: MechanismRecord, values: FloatArray, poses: FloatArray, length: float) -> FloatArray:
@@ -113,7 +113,7 @@ def error_rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatAr
     if whole_orientation(names):
         lengths = [3 + LENGTHS.index(name) for name in names if name in LENGTHS]
         return np.asarray(moves[..., [*lengths, 0, 1, 2], :])
-    return np.asarray(_rates(names, rotation, moves)[..., error_order(names), :])
+    return np.asarray(twist_rates(names, rotation, moves)[..., error_order(names), :])
 
 
 def error_order(names: Pose) -> list[int]:
@@ -141,7 +141,8 @@ def orientation(names: tuple[str, ...], given: dict[str, FloatArray]) -> FloatAr
     return rotations.from_angles(*(given[name] for name in ANGLES))
 
 
-def _rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatArray:
+def twist_rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatArray:
+    """Rates (..., k, r) of the pose for twists (..., 6, r) of the platform at its point, as turned by (..., 3, 3)."""
     named = dict(zip(("wx", "wy", "wz", *LENGTHS), np.moveaxis(moves, -2, 0), strict=True))
     if any(name in ANGLES for name in names):
         named |= zip(ANGLES, _angle_rates(rotation, moves[..., :3, :]), strict=True)

@@ -53,13 +53,7 @@ def acceleration(
     """
     given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
-    asked = mode or record.modes.default_working
-    if record.closed_form is None and asked == record.modes.default_working:
-        reached = (home_mode_at(record, pose).joints for pose in flat)
-        lost = np.full(len(record.coordinates), np.nan)
-        joints = np.array([lost if values is None else values for values in reached])
-    else:
-        joints = inverse(record, flat, asked).first_joints
+    joints = joints_in_mode(record, flat, mode)
     known = np.all(np.isfinite(joints), axis=-1)
     shape, names = (len(flat), len(record.inputs)), border.input_names(record)
     first = border.checked(input_rates, names, f"input rates of {record.name}")
@@ -70,6 +64,24 @@ def acceleration(
     answers[:, known] = acceleration_at(record, joints[known], *rates)
     velocity, changes = answers.reshape(2, *given.shape[:-1], -1)
     return velocity, changes
+
+
+def joints_in_mode(record: MechanismRecord, poses: FloatArray, mode: str | None = None) -> FloatArray:
+    """Joint values (N, n) at poses (N, m) in a working mode; NaN where it does not reach.
+
+    Without a mode it is the file's default; without a closed form home's, followed from home to each pose. Of several
+    solutions of a mode it is the first.
+
+    >>> from assur.model.registry import load_record
+    >>> joints_in_mode(load_record("fivebar"), np.array([[0.0, 224.0], [0.0, 999.0]])).shape
+    (2, 5)
+    """
+    asked = mode or record.modes.default_working
+    if record.closed_form is None and asked == record.modes.default_working:
+        reached = (home_mode_at(record, pose).joints for pose in poses)
+        lost = np.full(len(record.coordinates), np.nan)
+        return np.array([lost if values is None else values for values in reached])
+    return inverse(record, poses, asked).first_joints
 
 
 def acceleration_at(
@@ -156,11 +168,11 @@ def _pose_acceleration(
     named = dict(zip(("wx", "wy", "wz", *LENGTHS), np.moveaxis(change, -1, 0), strict=True))
     if any(name in ANGLES for name in record.platform.pose):
         rotation, _ = platform_frame(record, values)
-        named |= zip(ANGLES, _angle_accelerations(rotation, turn, change[..., :3]), strict=True)
+        named |= zip(ANGLES, angle_accelerations(rotation, turn, change[..., :3]), strict=True)
     return np.stack([named[name] for name in rate_names(record.platform.pose)], axis=-1)
 
 
-def _angle_accelerations(rotation: FloatArray, turn: FloatArray, angular: FloatArray) -> tuple[FloatArray, ...]:
+def angle_accelerations(rotation: FloatArray, turn: FloatArray, angular: FloatArray) -> tuple[FloatArray, ...]:
     """Second derivatives (...) of phi, theta, psi for angular velocity and acceleration (..., 3) in the base frame.
 
     With along and across the parts of w in the direction of phi and a quarter turn ahead: theta' = across,

@@ -101,10 +101,11 @@ class _Names:
             self.faults.unknown(path, "driven joint", text, driven)
         return driven.get(text, [])
 
-    def label(self, item: Input) -> str:
+    def label(self, drive: Input) -> str:
         """A driven coordinate: its joint, with the component where it has several."""
-        single = JOINT_TYPES[self.tables.joints[item.coordinate.joint].entry.type].freedoms == 1
-        return item.coordinate.joint if single else f"{item.coordinate.joint}.{item.coordinate.component}"
+        joint = drive.coordinate.joint
+        single = JOINT_TYPES[self.tables.joints[joint].entry.type].freedoms == 1
+        return joint if single else f"{joint}.{drive.coordinate.component}"
 
 
 def _gravity(entry: schema.GravityEntry | None, geometry: JointVectors) -> Gravity:

@@ -1,0 +1,68 @@
+"""`assur forces`: what actuators exert and joints bear, for gravity, a load and a motion."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+
+
+def forces(
+    mechanism: MechanismName,
+    /,
+    *,
+    pose: Annotated[
+        tuple[str, ...],
+        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose, one value per coordinate."),
+    ],
+    mode: WorkingMode = None,
+    load: Annotated[
+        str | None,
+        Parameter(metavar="FX,FY,FZ[,MX,MY,MZ]", help="Force [N] and moment [N m] on the platform at its point."),
+    ] = None,
+    no_gravity: Annotated[bool, Parameter(help="Leave gravity aside.")] = False,
+    velocity: Annotated[
+        tuple[str, ...],
+        Parameter(consume_multiple=1, metavar="VX VY VZ", help="Rates of the pose, per second; 0 if left out."),
+    ] = (),
+    acceleration: Annotated[
+        tuple[str, ...],
+        Parameter(consume_multiple=1, metavar="AX AY AZ", help="Their rates, per second squared; 0 if left out."),
+    ] = (),
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """Forces of the actuators and reactions in the joints at a pose.
+
+    By virtual work over all links, with Newton and Euler for every joint, on the
+    joint graph alone: a closed form is not asked for, and joints that hold the
+    same twice do no harm. Masses, actuators and gravity are those of the file
+    (`assur show --masses` prints them). Of each reaction it says what is unique
+    and what rigid links leave open. Also: energies, power, mass matrix, bias and
+    gravity in the pose's rates, friction apart. Rates and accelerations are in
+    the file's units; `--json` is in SI units. Exit code 2: a mass that is needed
+    is not in the file. 4: the mode does not reach the pose.
+
+    For example:
+        assur forces zeng2019 --pose -15.4714 9.6849 456.3315 --load 0,0,-100
+        assur forces delta_4s --pose 0 0 -0.9 --velocity 1 0 0 --acceleration 20 0 0
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli import forced
+    from assur.cli.numbers import number, numbers
+    from assur.errors import UsageError
+    from assur.kinematics.answers.at_border import pose_from_border
+    from assur.model.pose import rate_names
+
+    place = pose_from_border(record, numbers(pose, record.platform.pose, f"pose of {record.name}"))
+    names = rate_names(record.platform.pose)
+    rates = [
+        numbers(given, names, f"{what} of {record.name}") if given else [0.0] * len(names)
+        for given, what in ((velocity, "velocity"), (acceleration, "acceleration"))
+    ]
+    texts = load.split(",") if load is not None else ["0"] * 3
+    if len(texts) not in (3, 6):
+        raise UsageError(f"--load: {len(texts)} values", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
+    wrench = [number(text, "--load") for text in texts]
+    return forced.outcome(record, place, mode or record.modes.default_working, wrench, not no_gravity, rates)

@@ -1,0 +1,65 @@
+"""The answer of `assur forces`, in SI units: forces before moments, along x, y, z of the base."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from assur.results.answers.answer import AnswerOfMechanism
+from assur.results.answers.position import NegativeQuantity, Numbers
+
+Row = tuple[float | None, ...]
+
+
+@dataclass(frozen=True)
+class ShownReaction:
+    """What a joint's parent passes to its child, at the child's joint point; `indeterminate` are orthonormal wrenches.
+
+    `elastic` is what a structure of elastic bars passes, null where that was not asked.
+    """
+
+    joint: str
+    force: Numbers
+    moment: Numbers
+    unique: tuple[bool, ...]
+    indeterminate: tuple[Numbers, ...]
+    elastic: Numbers | None
+
+
+@dataclass(frozen=True)
+class ForcesAnswer(AnswerOfMechanism):
+    """Forces of the actuators at a pose, energies, the terms of the equation of motion, reactions in the joints.
+
+    Numbers that do not exist are null: those of masses where the file has none, all forces where the mechanism is
+    singular. `growth` is the largest force of an actuator per unit force at the platform; `units` are by field.
+    """
+
+    pose: Numbers
+    mode: str
+    status: str
+    input_names: tuple[str, ...]
+    load: Numbers
+    under_gravity: bool
+    velocity: Numbers
+    acceleration: Numbers
+    actuator_forces: Row
+    least_norm: bool
+    preload: tuple[Numbers, ...]
+    friction: Row
+    friction_band: Numbers
+    input_rates: Row
+    kinetic_energy: float | None
+    potential_energy: float | None
+    power: float | None
+    mass_matrix: tuple[Row, ...]
+    bias: Row
+    gravity: Row
+    growth: float | None
+    reactions: tuple[ShownReaction, ...]
+    unknowns: int | None
+    equations: int | None
+    rank: int | None
+    redundancy: int | None
+    failures: tuple[NegativeQuantity, ...]
+    notes: tuple[str, ...]
+    units: Mapping[str, str]

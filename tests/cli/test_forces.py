@@ -1,0 +1,85 @@
+"""`assur forces`: the same as the library says, in SI units, readable, and refused where it must be."""
+
+import numpy as np
+import pytest
+
+import assur
+
+POSE = ("-15.4714", "9.6849", "456.3315")
+LOAD = ("--load", "0,0,-100")
+
+
+@pytest.fixture(scope="module")
+def weighed(tmp_path_factory):
+    """The paper's mechanism with a kilogram in every link but one."""
+    text = assur.load("zeng2019").file.read_text(encoding="utf-8")
+    head, _, rest = text.partition("[links]")
+    links, joints, tail = rest.partition("[joints]")
+    lines = [line.split("=")[0] + "= { mass = 1 }" if " = {" in line else line for line in links.splitlines()]
+    kept = [table for table in tail.split("\n\n") if not table.startswith(("[materials]", "[payload]"))]
+    path = tmp_path_factory.mktemp("weighed") / "own.toml"
+    path.write_text(head + "[links]" + "\n".join(lines) + "\n" + joints + "\n\n".join(kept), encoding="utf-8")
+    return str(path)
+
+
+def test_numbers_are_those_of_the_library_in_si_units(assur_cli, weighed):
+    run = assur_cli("forces", weighed, "--pose", *POSE, *LOAD, "--velocity", "100", "0", "0", "--json")
+    answer = assur.load(weighed).forces([float(text) for text in POSE], [100, 0, 0], load=[0, 0, -100])
+    data = run.json
+    assert (run.code, data["status"], data["mode"]) == (0, "regular", "++-++")
+    assert data["actuator_forces"] == pytest.approx(answer.forces[0].tolist())
+    assert data["velocity"] == pytest.approx([0.1, 0, 0])
+    assert data["pose"] == pytest.approx([float(text) / 1e3 for text in POSE])
+    assert np.array(data["mass_matrix"]) == pytest.approx(answer.mass_matrix[0])
+    assert data["mass_matrix"][1][1] == pytest.approx(13.0)
+    assert (data["unknowns"], data["equations"], data["rank"], data["redundancy"]) == (88, 78, 78, 10)
+    assert [len(item["unique"]) for item in data["reactions"]] == [6] * 17
+    assert all(item["elastic"] is None for item in data["reactions"])
+    assert data["units"]["actuator_forces"] == "N, N, N"
+    assert data["units"].keys() <= data.keys()
+
+
+def test_a_person_sees_forces_terms_and_what_is_open(assur_cli, weighed):
+    out = assur_cli("forces", weighed, "--pose", *POSE).out
+    for word in ("yA1", "M x", "bias c", "88 unknowns, 78 equations of rank 78", "10 stresses", "under gravity"):
+        assert word in out
+
+
+def test_without_masses_a_load_is_held_and_gravity_refused(assur_cli, tmp_path):
+    path = tmp_path / "bare.toml"
+    assert assur_cli("new", str(path), "--limb", "P[x] R[z] R[z]", "--count", "3").code == 0
+    held = assur_cli("forces", str(path), "--pose", "0", "0", "0", *LOAD, "--no-gravity", "--json")
+    assert (held.code, held.json["kinetic_energy"], held.json["mass_matrix"][0][0]) == (0, None, None)
+    assert "no mass is stated of" in " ".join(held.json["notes"])
+    refused = assur_cli("forces", str(path), "--pose", "0", "0", "0")
+    assert refused.code == 2
+    assert "no mass of " in refused.err
+    assert "kg" in refused.err
+
+
+def test_a_pose_out_of_reach_says_why(assur_cli):
+    run = assur_cli("forces", "zeng2019", "--pose", "0", "0", "5000", "--no-gravity", "--json")
+    assert (run.code, run.json["status"], run.json["reactions"]) == (4, "unreachable", [])
+    assert run.json["actuator_forces"] == [None] * 3
+    assert run.json["failures"]
+
+
+def test_a_singular_pose_has_a_status_and_no_numbers(assur_cli):
+    words = ("forces", "fivebar", "--set", "l2=150", "--pose", "0", "60", "--no-gravity", "--load", "0,-10,0")
+    run = assur_cli(*words, "--mode", "-+", "--json")
+    assert (run.code, run.json["status"], run.json["actuator_forces"]) == (0, "parallel", [None, None])
+    assert "the actuators do not hold the platform here" in assur_cli(*words, "--mode", "-+").out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--load", "1,2"), "--load: 2 values"),
+        (("--load", "1,2,x"), "--load: 'x' is not a number"),
+        (("--velocity", "1", "2"), "velocity of zeng2019: 2 values, 3 wanted"),
+    ],
+)
+def test_wrong_words_are_told(assur_cli, words, said):
+    run = assur_cli("forces", "zeng2019", "--pose", *POSE, *words)
+    assert run.code == 2
+    assert said in run.err
