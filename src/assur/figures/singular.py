@@ -17,7 +17,9 @@ from assur.figures.meaning import typeset
 from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import LETTER, PAGE, SMALL, TEXT
+from assur.joint_graph.points import quantity
 from assur.model.closed_form import Factor
+from assur.model.formula import parse
 from assur.model.pose import LENGTHS, is_angle
 from assur.results.typeset_text import minus
 from assur.scene.skeleton import skeleton
@@ -33,9 +35,13 @@ SAME = 1e-5
 
 def example_of(context: Context, kind: str) -> SingularExample | None:
     """The example that the source draws of a kind, else the first of that kind."""
+    met = [item for item in context.examples if item.factor.kind == kind]
     wanted = getattr(context.companion.examples, kind)
-    found = [item for item in context.examples if item.factor.kind == kind]
-    return next((item for item in found if item.factor.name == wanted), found[0] if found else None)
+    if not wanted or not met:
+        return met[0] if met else None
+    values = np.abs(quantity(context.record, parse(wanted), np.array([item.joints for item in context.examples])))
+    drawn = {id(item) for item, value in zip(context.examples, values, strict=True) if value <= SAME * np.max(values)}
+    return next((item for item in met if id(item) in drawn), met[0])
 
 
 def further(context: Context) -> list[SingularExample]:

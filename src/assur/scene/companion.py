@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assur.errors import MechanismFileError, UnknownNameError
+from assur.joint_graph.points import quantity
 from assur.model.file.faults import Faults
 from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.formula import FormulaError, parse
@@ -69,7 +71,10 @@ class Schematic(_Part):
 
 
 class Examples(_Part):
-    """The factors whose vanishing the source draws as its examples of a serial and a parallel singularity."""
+    """The quantities of the joint graph whose vanishing the source draws: a serial and a parallel singularity.
+
+    Formulas over joints and coordinates of points, as in [modes]; whatever a closed form calls its factors.
+    """
 
     serial: str = ""
     parallel: str = ""
@@ -185,8 +190,6 @@ def _checked(source: TomlSource, faults: Faults) -> Companion | None:
 
 
 def _check_names(record: MechanismRecord, companion: Companion, faults: Faults) -> None:
-    form = record.closed_form
-    factors = [factor.name for factor in form.factor_list] if form else []
     named = {**record.points, **record.joints}
     for k, bar in enumerate(companion.bars):
         _known(faults, ("bars", k, "link"), "link", bar.link, record.links)
@@ -214,9 +217,7 @@ def _check_names(record: MechanismRecord, companion: Companion, faults: Faults) 
     for name in companion.schematic.parameters:
         _known(faults, ("schematic", "parameters", name), "parameter", name, record.parameters)
     for kind in ("serial", "parallel"):
-        name = getattr(companion.examples, kind)
-        if name:
-            _known(faults, ("examples", kind), "factor", name, factors)
+        _quantity(record, faults, ("examples", kind), getattr(companion.examples, kind))
     for path, values, length in (
         (("inputs",), companion.inputs, len(record.inputs)),
         (("schematic", "pose"), companion.schematic.pose, len(record.platform.pose)),
@@ -229,6 +230,15 @@ def _known(faults: Faults, path: tuple[str | int, ...], kind: str, name: str, ch
     names = [str(choice) for choice in choices]  # type: ignore[attr-defined]  # dicts and lists of names
     if name not in names:
         faults.unknown(path, kind, name, names)
+
+
+def _quantity(record: MechanismRecord, faults: Faults, path: tuple[str | int, ...], text: str) -> None:
+    """Note a formula of joint values and points that has none."""
+    try:
+        if text:
+            quantity(record, parse(text), np.zeros(len(record.coordinates)))
+    except (FormulaError, UnknownNameError) as error:
+        faults.add(path, text, error.message)
 
 
 def _formula(record: MechanismRecord, faults: Faults, path: tuple[str | int, ...], text: str) -> float | None:
