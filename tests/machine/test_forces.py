@@ -87,6 +87,14 @@ def test_a_pose_out_of_reach_has_no_numbers(zeng):
     assert (np.isfinite(answer.forces[0]).all(), np.isnan(answer.forces[1]).all()) == (True, True)
 
 
+def test_rods_along_the_rails_pass_forces_on_as_they_are():
+    """The Orthoglide's isotropic pose: no motor bears more than the load, in newtons, not over a length."""
+    orthoglide = assur.load("orthoglide")
+    answer = orthoglide.forces([0.0, 0.0, 0.0], load=[1, 2, 3], gravity=False)
+    assert answer.growth[0] == pytest.approx(1.0)
+    np.testing.assert_allclose(np.abs(answer.forces), [[1, 2, 3]])
+
+
 def test_friction_stands_apart(zeng):
     record = weighed(zeng)
     machine = replace(record.machine, actuators={"P1": Actuator(coulomb=5.0, viscous=20.0)})
@@ -95,6 +103,14 @@ def test_friction_stands_apart(zeng):
     assert (still.friction.tolist(), still.friction_band.tolist()) == ([[0.0] * 3], [5.0, 0.0, 0.0])
     np.testing.assert_allclose(moving.input_rates, [[0.1] * 3])
     np.testing.assert_allclose(moving.friction, [[7.0, 0.0, 0.0]])
+
+
+def test_an_input_that_rests_while_others_move_has_no_friction_but_its_band():
+    delta = assur.load("delta_4s")
+    answer = delta.forces([0.0, 0.0, -0.9], [1.0, 0.0, 0.0])  # across the plane of leg 1
+    assert answer.input_rates[0, 0] == 0.0
+    assert answer.friction[0, 0] == 0.0
+    assert not answer.unbalanced[0]
 
 
 def test_wrong_use_is_told(zeng):

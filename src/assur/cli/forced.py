@@ -199,7 +199,8 @@ def _actuators(record: Mechanism, answer: ForcesAnswer) -> Iterable[RenderableTy
         moving, force = answer.input_rates[place], answer.actuator_forces[place]
         friction = answer.friction[place] if moving else answer.friction_band[place]
         limit = limits[place].force if limits[place] else None  # type: ignore[union-attr]
-        share = f"{abs(force or 0.0) / limit:.0%}" if limit else "-"
+        borne = abs((force or 0.0) + (friction or 0.0) * bool(moving))
+        share = f"{borne / limit:.0%}" if limit else "-"
         told = f"{'' if moving else '±'}{short(friction)}" if limits[place] else "-"
         rows.append((name, short(force), unit, told, short(moving), "m/s" if unit == "N" else "rad/s", share))
     columns = ("actuator", "force", "in", "friction", "rate", "per", "of its limit")

@@ -30,8 +30,8 @@ from assur.model.pose import LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-EQUILIBRIUM = 1e-6
-"""Share of all joint accelerations within which those of motions that nothing drives are rounding."""
+ROUNDED = 1e-10
+"""Share of the fastest joint's rate below which an input's rate is rounding, and the input at rest."""
 STILL = 1e-6
 """In rad/s2: slower a rod begins to spin by rounding alone."""
 
@@ -55,7 +55,7 @@ class ActuatorForces:
             and where the pose's rates are not free.
         growth: (N,) newtons (newton metres) of an actuator per newton (newton metre) at the platform, the largest.
         preload: (N, d, d - k) forces of redundant drives that balance one another, orthonormal columns.
-        unbalanced: (N,) whether a freedom that nothing drives, as a rod's spin, is left to fall.
+        unbalanced: (N,) whether at rest a freedom that nothing drives, as a rod's spin, is left to fall.
         motion: of the joints, with all that forces are made of.
         joint_rates, joint_accelerations: (N, n) of all joints.
         load: what acts on the platform.
@@ -198,6 +198,9 @@ def forces_at(
     gravity = inertia.weight
     across = np.swapaxes(motion.of_pose, -1, -2)
     input_rates = joint_rates @ motion.drives.T
+    input_rates[np.abs(input_rates) <= ROUNDED * np.abs(joint_rates).max(axis=-1, keepdims=True)] = (
+        0.0  # friction holds
+    )
     band, friction = _friction(record, input_rates)
     missing = np.where(unknown, np.nan, 0.0)
     at_pose = {
@@ -221,7 +224,7 @@ def forces_at(
         power=np.einsum("nd,nd->n", tau, input_rates),
         growth=_growth(motion),
         preload=preload,
-        unbalanced=np.linalg.norm(idle, axis=-1) > EQUILIBRIUM * np.linalg.norm(second - idle, axis=-1) + STILL,
+        unbalanced=(np.linalg.norm(idle, axis=-1) > STILL) & (not moves),
         motion=motion,
         joint_rates=joint_rates,
         joint_accelerations=second,
@@ -283,9 +286,9 @@ def _balanced(motion: ClosedMotion, needed: FloatArray) -> tuple[FloatArray, Flo
 
 def _growth(motion: ClosedMotion) -> FloatArray:
     """Largest force (N,) of an actuator per unit force at the platform, moments over the characteristic length."""
-    units = np.repeat([1.0, motion.length], 3)
+    units = np.repeat([motion.length, 1.0], 3)
     free = np.swapaxes(motion.free, -1, -2)
-    per_load = np.linalg.pinv(free @ motion.drives.T, rcond=1e-9) @ free @ np.swapaxes(motion.platform, -1, -2) / units
+    per_load = np.linalg.pinv(free @ motion.drives.T, rcond=1e-9) @ free @ np.swapaxes(motion.platform, -1, -2) * units
     return np.asarray(np.max(np.linalg.norm(per_load, axis=-1), axis=-1))
 
 
