@@ -53,6 +53,7 @@ def test_fewer_limbs_than_freedoms_are_shown_by_families(assur_cli):
     assert run.out.startswith("2T1R: ")
     assert "the best 2 of" in run.out
     assert "simplest" in run.out
+    assert "with κ = 0, " in run.out
     assert "closes with Δ = " in " ".join(run.out.split())
     assert max(map(len, run.out.splitlines())) <= 80
     data = assur_cli(*words, "--json").json

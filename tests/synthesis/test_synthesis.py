@@ -1,5 +1,6 @@
 import random
 
+import numpy as np
 import pytest
 
 import assur
@@ -12,6 +13,7 @@ from assur.synthesis.synthesis import synthesis
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.notation import parse_chain
 from assur.topology.symbolic.union import serial
+from mobility_oracle import least_sum_of_degrees, outcomes
 
 KNOWN_AT_BASE = [
     "tsai_platform",
@@ -75,6 +77,43 @@ def test_every_mechanism_of_two_limbs_has_three_drives_on_the_base(of_two_limbs)
         for limb, joint in design.actuated:
             loop = design.limbs[limb - 1].type.loop
             assert joint == 1 or joint == len(loop.branches[0]) + 1
+
+
+def confirmed_by_the_oracle(family, number):
+    """Whether its best mechanism moves as it must, and its drives and loops count so, by finite motion alone."""
+    design = family.designs[0]
+    texts = [chain.text for chain in design.chains]
+    met = outcomes(texts, number)
+    real = {(seen.freedoms, seen.t, seen.r, seen.dim) for seen, count in met.items() if seen.real and count > 1}
+    poc = design.known.poc
+    assert (design.dof, poc.t, poc.r, poc.dim) in real, (texts, dict(met))
+    if design.mode == "home":
+        starts = np.cumsum([0, *(len(chain.joints) for chain in design.chains)])
+        driven = [(int(starts[limb - 1]) + joint - 1, 0) for limb, joint in design.actuated]
+        assert least_sum_of_degrees(texts, driven, number) == sum(abs(loop.delta) for loop in design.loops.loops), texts
+
+
+def without_rods(found):
+    """Families whose best mechanism the oracle can read."""
+    return [
+        family
+        for family in found.families
+        if all(limb.type.parallelograms == limb.type.hinged for limb in family.designs[0].limbs)
+    ]
+
+
+def test_the_oracle_confirms_some_families_of_two_limbs(of_two_limbs):
+    for number, family in enumerate(random.Random(3).sample(without_rods(of_two_limbs), 4)):
+        confirmed_by_the_oracle(family, number)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(("motion", "joints", "count"), [("3T", 5, 27), ("2T1R", 4, 18), ("3T1R", 4, 14)])
+def test_the_oracle_confirms_every_family_of_two_limbs(motion, joints, count):
+    families = without_rods(synthesis(motion, 2, joints, members=1))
+    assert len(families) >= count
+    for number, family in enumerate(families):
+        confirmed_by_the_oracle(family, number)
 
 
 @pytest.mark.deep

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
@@ -299,14 +300,21 @@ def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     yield f"positions    {data.positions}"
     yield f"limb types   {types.with_motion} with the motion: {kinds or 'none'}"
     yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
-    degrees = ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(tally.coupling_degrees.items()))
-    unknown = tally.with_motion - sum(tally.coupling_degrees.values())
-    rest = f", {unknown} on which only twists can tell" if unknown else ""
-    yield f"coupling     {degrees or 'none'}{rest}"
+    if synthesis.asked.hybrid:
+        coupled = Counter(family.coupling_degree for family in data.families)
+        yield f"families     {_degrees(coupled) or 'none'}, of the mechanisms that are listed"
+    else:
+        unknown = tally.with_motion - sum(tally.coupling_degrees.values())
+        rest = f", {unknown} on which only twists can tell" if unknown else ""
+        yield f"coupling     {_degrees(tally.coupling_degrees) or 'none'}{rest}"
     yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
     if any(not design.symmetric for design in synthesis.designs):
         listed = data.combinations.listed_of_each_class_of_different_limbs
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
+
+
+def _degrees(counts: Counter[int]) -> str:
+    return ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(counts.items()))
 
 
 def _table(numbered: Sequence[Numbered]) -> RenderableType:
