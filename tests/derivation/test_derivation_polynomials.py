@@ -1,9 +1,11 @@
 """Derived polynomials serve like hand-written ones, also of drafts that nobody has solved by hand."""
 
 import shutil
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from assur.derivation.derivation import derive
 from assur.joint_graph.geometry import characteristic_length
@@ -90,3 +92,30 @@ def test_legs_of_either_sign_are_more_than_the_hand_written_form_has(tmp_path):
         back = [[other.pose for other in direct(form, own.inputs, method="closed form")] for form in (written, derived)]
         assert len(back[0]) == len(back[1])
         assert apart(written, *back) < 1e-9
+
+
+@pytest.mark.deep
+def test_poses_of_one_angle_are_both_found(tmp_path):
+    """Where the circles of a 3-RPR's platform point have their centres on a line, two poses share the unknown, phi."""
+    written = load_record("planar_3rpr")
+    derived, p, rng = with_derived_form(written, tmp_path), written.values, np.random.default_rng(2)
+
+    def centres(phi):
+        turn = np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]])
+        return np.array([[0.0, 0.0], [p.a2, 0.0], [p.a3, p.h3]]) - np.array([[0, 0], [p.d1, 0], [p.c3, p.e3]]) @ turn.T
+
+    def area(phi):
+        return float(np.linalg.det(centres(phi)[1:]))
+
+    angles = np.linspace(-3.1, 3.1, 60)
+    lines = [brentq(area, low, high, xtol=1e-15) for low, high in pairwise(angles) if area(low) * area(high) < 0]
+    assert lines
+    for phi in lines:
+        own = centres(phi)
+        along = own[1] / np.linalg.norm(own[1])
+        for place in rng.uniform(-20.0, 20.0, (10, 2)):
+            for change in (0.0, 1e-12, 1e-9, 1e-7):
+                answer = direct(derived, np.linalg.norm(place - own, axis=1) * (1 + change * rng.normal(size=3)))
+                assert answer.complete
+                pair = [[*place, phi], [*(2 * (place @ along) * along - place), phi]]
+                assert apart(written, pair, [other.pose for other in answer]) < 1e-4
