@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur.machine.capacity import capacity
 
 POSE = ("-15.4714", "9.6849", "456.3315")
 LOAD = ("--load", "0,0,-100")
@@ -83,3 +84,20 @@ def test_wrong_words_are_told(assur_cli, words, said):
     run = assur_cli("forces", "zeng2019", "--pose", *POSE, *words)
     assert run.code == 2
     assert said in run.err
+
+
+def test_capacity_is_that_of_the_library(assur_cli):
+    run = assur_cli("forces", "zeng2019", "--capacity", "--pose", *POSE, "--json")
+    held = capacity(assur.load("zeng2019"), [float(text) for text in POSE])
+    assert (run.code, run.json["status"]) == (0, "regular")
+    assert run.json["largest_sphere"] == pytest.approx(held.sphere)
+    assert np.array(run.json["polytope_vertices"]) == pytest.approx(held.vertices)
+    assert run.json["per_axis"]["z"] == pytest.approx(held.per_axis[2].tolist())
+    out = assur_cli("forces", "zeng2019", "--capacity").out  # at home
+    assert "in every direction: " in out
+    assert "8 corners" in out
+
+
+def test_capacity_takes_no_load_and_forces_a_pose(assur_cli):
+    assert "--capacity: at rest" in assur_cli("forces", "zeng2019", "--capacity", *LOAD).err
+    assert "--pose is missing" in assur_cli("forces", "zeng2019").err

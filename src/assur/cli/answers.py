@@ -23,7 +23,7 @@ from assur.results.answers.files import (
     WrittenPage,
     WrittenReport,
 )
-from assur.results.answers.forces import ForcesAnswer
+from assur.results.answers.forces import CapacityAnswer, ForcesAnswer
 from assur.results.answers.indices import IndicesAnswer, MapsAnswer, OverallAnswer
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
 from assur.results.answers.masses import MassesAnswer
@@ -57,7 +57,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),
-    "forces": (ForcesAnswer,),
+    "forces": (ForcesAnswer, CapacityAnswer),
     "indices": (IndicesAnswer, OverallAnswer, MapsAnswer),
     "inverse": (InverseAnswer, CertifiedInverse),
     "list": (CatalogueAnswer,),

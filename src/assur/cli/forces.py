@@ -15,8 +15,8 @@ def forces(
     *,
     pose: Annotated[
         tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose, one value per coordinate."),
-    ],
+        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose; with --capacity home's if left out."),
+    ] = (),
     mode: WorkingMode = None,
     load: Annotated[
         str | None,
@@ -31,6 +31,9 @@ def forces(
         tuple[str, ...],
         Parameter(consume_multiple=1, metavar="AX AY AZ", help="Their rates, per second squared; 0 if left out."),
     ] = (),
+    capacity: Annotated[
+        bool, Parameter(help="Which forces on the platform the actuators hold at rest within their limits.")
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Forces of the actuators and reactions in the joints at a pose.
@@ -47,6 +50,7 @@ def forces(
     For example:
         assur forces zeng2019 --pose -15.4714 9.6849 456.3315 --load 0,0,-100
         assur forces delta_4s --pose 0 0 -0.9 --velocity 1 0 0 --acceleration 20 0 0
+        assur forces delta_4s --capacity --pose 0 0 -0.9
     """
     record = shared.mechanism(mechanism)
     from assur.cli import forced
@@ -55,7 +59,21 @@ def forces(
     from assur.kinematics.answers.at_border import pose_from_border
     from assur.model.pose import rate_names
 
+    mode = mode or record.modes.default_working
+    if capacity and (load is not None or no_gravity or velocity or acceleration):
+        raise UsageError("--capacity: at rest under gravity", hint="leave out --load, --no-gravity and motions")
+    if capacity and not pose:
+        from assur.cli import borne
+        from assur.kinematics.pose import pose_of
+
+        return borne.outcome(record, pose_of(record, record.home_values), mode)
+    if not pose:
+        raise UsageError("--pose is missing", hint=f"--pose {' '.join(record.platform.pose)}")
     place = pose_from_border(record, numbers(pose, record.platform.pose, f"pose of {record.name}"))
+    if capacity:
+        from assur.cli import borne
+
+        return borne.outcome(record, place, mode)
     names = rate_names(record.platform.pose)
     rates = [
         numbers(given, names, f"{what} of {record.name}") if given else [0.0] * len(names)
@@ -65,4 +83,4 @@ def forces(
     if len(texts) not in (3, 6):
         raise UsageError(f"--load: {len(texts)} values", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
     wrench = [number(text, "--load") for text in texts]
-    return forced.outcome(record, place, mode or record.modes.default_working, wrench, not no_gravity, rates)
+    return forced.outcome(record, place, mode, wrench, not no_gravity, rates)

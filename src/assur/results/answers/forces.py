@@ -63,3 +63,25 @@ class ForcesAnswer(AnswerOfMechanism):
     failures: tuple[NegativeQuantity, ...]
     notes: tuple[str, ...]
     units: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class CapacityAnswer(AnswerOfMechanism):
+    """Forces on the platform that the actuators hold at rest within their limits, gravity included, in N.
+
+    `per_axis` are the largest forces against and along each axis, null where no actuator feels them; `limiting` is the
+    input whose limit `largest_sphere` is; `polytope_vertices` are empty where the polytope is not bounded.
+    """
+
+    pose: Numbers
+    mode: str
+    status: str
+    input_names: tuple[str, ...]
+    limits: Numbers
+    utilisation: Row
+    per_axis: Mapping[str, Row]
+    largest_sphere: float | None
+    limiting: str
+    polytope_vertices: tuple[Numbers, ...]
+    notes: tuple[str, ...]
+    units: Mapping[str, str]
