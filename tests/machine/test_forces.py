@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import assur
 from assur.errors import UsageError
 from assur.kinematics.status import Status
 from assur.machine.forces import forces
 from assur.machine.loads import load_of
-from assur.model.machine_data import Actuator, MachineData
+from assur.model.machine_data import Actuator, Gravity, LinkData, MachineData
 from weighed import weighed
 
 POSE = [-15.4714, 9.6849, 456.3315]
@@ -126,3 +127,36 @@ def test_wrong_use_is_told(zeng):
 def test_it_prints_what_it_says(zeng):
     text = str(zeng.forces(POSE, load=[0, 0, -100], gravity=False))
     assert text.splitlines()[:2] == ["forces of the actuators of zeng2019 (regular)", "yA1: -11.7116 N"]
+
+
+@pytest.mark.deep
+def test_a_five_bar_of_uniform_bars_by_lagrange():
+    """The equation of motion by SymPy from the elbows' places as functions of P: no joint graph, no screws."""
+    bare = assur.load("fivebar")
+    links = {name: LinkData(kg_per_m=weight) for name, weight in zip(("crank1", "crank2"), (1.0, 1.5), strict=True)}
+    links |= {name: LinkData(kg_per_m=weight) for name, weight in zip(("rod1", "rod2"), (0.5, 0.8), strict=True)}
+    down = Gravity(np.array([0.0, -1.0, 0.0]), 9.81)
+    record = replace(bare, machine=MachineData(links=links, gravity=down))
+    pose, velocity, acceleration = np.array([[30.0, 200.0], [300.0, -400.0], [2000.0, 1000.0]])
+    answer = forces(record, pose, velocity, acceleration)
+
+    x, y = place = sp.symbols("x y")
+    point, mass, height, angles = sp.Matrix(place), sp.zeros(2, 2), 0, []
+    for base, side, (crank, rod) in ((-0.07, 1, (1.0, 0.5)), (0.07, -1, (1.5, 0.8))):
+        reach = sp.sqrt((x - base) ** 2 + y**2)
+        angle = sp.atan2(y, x - base) + side * sp.acos((0.1**2 + reach**2 - 0.194**2) / (0.2 * reach))
+        elbow = sp.Matrix([base + 0.1 * sp.cos(angle), 0.1 * sp.sin(angle)])
+        moving = elbow.jacobian(place)
+        mass += crank * 0.1 / 3 * moving.T * moving
+        mass += rod * 0.194 / 3 * (moving.T * moving + (moving + moving.T) / 2 + sp.eye(2))
+        height += crank * 0.1 * elbow[1] / 2 + rod * 0.194 * (elbow[1] + point[1]) / 2
+        angles.append(angle)
+    v, a = sp.Matrix(velocity / 1e3), sp.Matrix(acceleration / 1e3)
+    changing = mass.diff(x) * v[0] + mass.diff(y) * v[1]
+    pull = sp.Matrix([(v.T * mass.diff(name) * v)[0] / 2 for name in place])
+    needed = mass * a + changing * v - pull + 9.81 * sp.Matrix([sp.diff(height, name) for name in place])
+    at = dict(zip(place, (pose / 1e3).tolist(), strict=True))
+    driven = np.array(sp.Matrix(angles).jacobian(place).evalf(30, subs=at), dtype=float)
+    expected = np.linalg.solve(driven.T, np.array(needed.evalf(30, subs=at), dtype=float)[:, 0])
+    np.testing.assert_allclose(answer.mass_matrix[0], np.array(mass.evalf(30, subs=at), dtype=float), rtol=1e-9)
+    np.testing.assert_allclose(answer.forces[0], expected, rtol=1e-9)
