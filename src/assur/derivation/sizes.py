@@ -7,6 +7,7 @@ from functools import cached_property
 
 import sympy
 
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.solution import AnalyticSolution
 from assur.model.pose import LENGTHS
 
@@ -28,12 +29,18 @@ class Sizes:
 
     @cached_property
     def reference(self) -> tuple[str, float]:
-        """The largest length among the dimensions, as a formula and in size; of those that are positive, if any are."""
+        """The largest length among the dimensions, as a formula and in size; of those that are positive, if any are.
+
+        Errors:
+            NotDerivedError: no dimension is a length.
+        """
         record = self.solution.symbols.record
         lengths = {
             name: parameter for name, parameter in record.parameters.items()
             if parameter.unit == record.unit and parameter.value and not parameter.drawn_only
         }  # fmt: skip
+        if not lengths:
+            raise NotDerivedError("no parameter is a length, and scales are multiples of one: give lengths names")
         positive = [name for name, parameter in lengths.items() if parameter.sign == "positive"]
         name = max(positive or lengths, key=lambda own: abs(lengths[own].value))
         return name if positive else f"sqrt({name}*{name})", abs(lengths[name].value)
