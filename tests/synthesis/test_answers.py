@@ -69,3 +69,11 @@ def test_files_are_numbered_so_that_they_sort(small):
     assert names[0].startswith("3t-")
     assert len(set(names)) == len(small.designs)
     assert list(skeletons(small, 2)) == names[:2]
+
+
+def test_families_and_mechanisms_name_each_other(of_two_limbs):
+    data = plain(answers(of_two_limbs))
+    assert [family["rank"] for family in data["families"]] == list(range(1, len(data["families"]) + 1))
+    listed = {rank: family["rank"] for family in data["families"] for rank in family["listed"]}
+    assert {item["rank"]: item["family"] for item in data["mechanisms"]} == listed
+    assert all(family["members"] >= len(family["listed"]) > 0 for family in data["families"])

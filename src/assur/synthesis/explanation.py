@@ -64,8 +64,9 @@ def explanation(limbs: Sequence[DrivenLimb], asked: SynthesisQuestion, step: Ste
         return dropped
     usable: dict[Key, CandidateLimb] = {}
     keys = []
+    judged_limbs = {limb: _limb(limb, asked) for limb in dict.fromkeys(limbs)}
     for number, limb in enumerate(limbs, 1):
-        judged = _limb(limb, asked)
+        judged = judged_limbs[limb]
         if isinstance(judged, Explanation):
             return Explanation(judged.dropped_by, f"limb {number}, {plain_text(limb.chain)}: {judged.reason}")
         keys.append(judged.type.key)

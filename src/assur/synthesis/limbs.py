@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -28,6 +28,9 @@ Actuators = Literal["base", "leg"]
 
 FREE = 6
 """Freedoms of a limb that constrains nothing."""
+
+KEPT = 8
+"""Lists of limb types that are kept: to write one takes a second, and an explanation asks for it again."""
 
 FREE_LIMB_JOINTS = 3
 """Of the limbs that constrain nothing only the shortest are listed, with one ball joint each."""
@@ -80,6 +83,7 @@ class LimbType:
         return sum(isinstance(joint, Parallelogram) and joint.kind == "4R" for joint in self.chain.joints)
 
 
+@lru_cache(KEPT)
 def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) -> tuple[LimbType, ...]:
     """Every limb that can be told apart, has a joint to drive and no freedom that shows as passive or idle, once.
 
@@ -99,6 +103,7 @@ def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) ->
     return _once(serial, motion)
 
 
+@lru_cache(KEPT)
 def hybrid_types(motion: RequiredMotion, max_joints: int) -> tuple[LimbType, ...]:
     """Limbs that begin with an inner loop of the catalogue, each once; the first joints of its branches are driven.
 
