@@ -55,6 +55,10 @@ class CirclePair:
         """The polynomial that is left, and how the circles follow of a root."""
         return _Elimination(self, names).eliminant()
 
+    def written_lines(self, eliminant: AngleEliminant) -> tuple[Form, ...]:
+        """The lines with names for their coefficients."""
+        return eliminant.named_lines if isinstance(eliminant, PairEliminant) else self.lines
+
     def values_of(self, eliminant: AngleEliminant) -> Iterator[Definition]:
         """The circles at a root, and what follows of them."""
         (first, last), (under, x, y, det, m, n) = self.circles, (own.symbol for own in eliminant.backward)
@@ -84,6 +88,19 @@ class PairEliminant(AngleEliminant):
     both: tuple[Triple, ...] = ()
     across: tuple[Triple, ...] = ()
     conic: tuple[sympy.Expr, ...] = ()
+
+    @property
+    def named_lines(self) -> tuple[Form, ...]:
+        """The lines of both circles, and the equation of both, with names for coefficients."""
+        (c, s, *last), own = self.unknowns, [*self.both[0], *self.both[1], *self.both[2]]
+        products = [product_symbol(x, y) for x in (c, s) for y in last]
+        keys = (*products[:2], c, *products[2:], s, *last, ONE)
+        rows = (
+            zip((c, s, ONE), self.first, strict=True),
+            zip((*last, ONE), self.last, strict=True),
+            zip(keys, own, strict=True),
+        )
+        return tuple({key: part for key, part in row if part != 0} for row in rows)
 
     @property
     def left_quadric(self) -> sympy.Expr:

@@ -15,6 +15,7 @@ import sympy
 from assur.derivation.circle_pairs import CirclePair, PairEliminant, Triple
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.line_and_conic import LineAndConic, line_and_conic
+from assur.derivation.linear import Form
 from assur.derivation.linear_span import LinearSpan, Multipliers, times, total_of, unit
 from assur.derivation.polynomial_identities import CoupledSet, PolynomialIdentities
 from assur.derivation.strokes import StrokeVector
@@ -46,7 +47,12 @@ class _PairSet(CoupledSet):
         witness: ModularWitness,
     ) -> None:
         super().__init__(part, eliminant, loops, vectors, witness)
-        self.own, self.first, self.last = eliminant, *pair.circles
+        self.own, self.pair = eliminant, pair
+        self.first, self.last = pair.circles
+
+    @property
+    def _lines(self) -> Sequence[Form]:
+        return self.pair.lines
 
     def _at_last(self, form: Triple) -> sympy.Expr:
         cosine, sine = self.last.unknowns

@@ -85,7 +85,7 @@ class CoupledSet:
     def identities(self) -> PolynomialIdentities:
         """All of them."""
         flat = {name: self._flat(form) for name, form in self.quadrics.items()}
-        targets = [self._flat(form) for form in (*self.part.lines, self.eliminant.quadric)]
+        targets = [self._flat(form) for form in (*self._lines, self.eliminant.quadric)]
         span = LinearSpan(flat, [*self.keys.values()], self.witness)
         *lines, quadric = (self._curved(span, form, target) for form, target in self._pairs(targets))
         formulas: dict[sympy.Symbol, Multipliers] = {}
@@ -100,7 +100,12 @@ class CoupledSet:
         return {}
 
     def _pairs(self, targets: Sequence[Form]) -> Iterator[tuple[Form, Form]]:
-        return zip((*self.part.lines, self.eliminant.quadric), targets, strict=True)
+        return zip((*self._lines, self.eliminant.quadric), targets, strict=True)
+
+    @property
+    def _lines(self) -> Sequence[Form]:
+        """The lines with coefficients written out."""
+        return self.part.lines
 
     def _following(self, unknown: sympy.Symbol) -> Multipliers:
         """What an unknown is less its form, of linear equations."""

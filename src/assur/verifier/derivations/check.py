@@ -305,7 +305,7 @@ class _ProblemCheck(KnownFormulas):
         if not self.zero(vanishing - self.total(own["shares"], equations)):
             raise RefusedError(f"{own['vanishes']} does not vanish")
         cosine, sine = own["circle"]
-        for level in self.levels():
+        for level in (self.turning_names({cosine, sine}), *self.levels()):
             degree = 2 * self.quotients([vanishing], level).degree(vanishing, cosine, sine)
             if degree == own["degree"]:
                 return degree

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
-from assur.verifier.derivations.terms import Quotients, Term, WrittenNumbers, divisors, term
+from assur.verifier.derivations.terms import Quotients, Term, WrittenNumbers, divisors, symbols_of, term
 from assur.verifier.formula import plain, value
 from assur.verifier.reading import RefusedError
 
@@ -59,12 +59,26 @@ class KnownFormulas:
         return any(self.quotients([own], level).zero(own) for level in self.levels())
 
     def levels(self) -> Iterator[dict[str, Term]]:
-        """Symbols and what they stand for: by itself, with names, with what is solved."""
+        """Symbols and what they stand for: by itself, with names of what names say, with all, with what is solved."""
         yield self.values
+        if composed := {name: own for name, own in self.names.items() if self._of_names(own)}:
+            yield {**composed, **self.values}
         if self.names:
             yield {**self.names, **self.values}
         if self.earlier:
             yield {**self.names, **self.values, **self.earlier}
+
+    def turning_names(self, circle: Collection[str]) -> dict[str, Term]:
+        """Values, and names of formulas that have some symbols in them, directly or by other such names."""
+        turning = dict[str, Term]()
+        for name, own in self.names.items():  # in the order of their definition
+            if any(other in circle or other in turning for other in symbols_of([own])):
+                turning[name] = own
+        return {**turning, **self.values}
+
+    def _of_names(self, own: Term) -> bool:
+        """Whether a formula has names in it and nothing else."""
+        return all(name in self.names for name in symbols_of([own]))
 
     def quotients(self, terms: Iterable[Term], level: Mapping[str, Term]) -> Quotients:
         """Quotients of polynomials for some terms."""

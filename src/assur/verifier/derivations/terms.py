@@ -200,10 +200,10 @@ class Quotients:
         self, terms: Iterable[Term], squares: Mapping[str, Term], values: Mapping[str, Term] | None = None
     ) -> None:
         self._values = values or {}
-        needed = dict.fromkeys(_symbols(terms))
+        needed = dict.fromkeys(symbols_of(terms))
         waiting = list(needed)
         for name in waiting:
-            for other in _symbols([own for own in (self._values.get(name), squares.get(name)) if own is not None]):
+            for other in symbols_of([own for own in (self._values.get(name), squares.get(name)) if own is not None]):
                 if other not in needed:
                     needed[other] = None
                     waiting.append(other)
@@ -347,5 +347,6 @@ class Quotients:
         )
 
 
-def _symbols(terms: Iterable[Term]) -> Iterator[str]:
+def symbols_of(terms: Iterable[Term]) -> Iterator[str]:
+    """Names of all symbols."""
     return (own.parts[0] for own in _all(terms) if own.kind == "symbol")
