@@ -47,6 +47,11 @@ class AngleEliminant:
         """What vanishes beside the lines, 0 where nothing is left."""
         return value_of(self.quadric)
 
+    @property
+    def named_lines(self) -> tuple[Form, ...]:
+        """Lines with names for their coefficients, where they are written so."""
+        return ()
+
     def program(self, one: sympy.Expr) -> tuple[Definition, ...]:
         """Entries and steps, as homogeneous polynomials in the cosine, the sine and what stands for 1."""
         if one not in self._programs:

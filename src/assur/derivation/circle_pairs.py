@@ -55,10 +55,6 @@ class CirclePair:
         """The polynomial that is left, and how the circles follow of a root."""
         return _Elimination(self, names).eliminant()
 
-    def written_lines(self, eliminant: AngleEliminant) -> tuple[Form, ...]:
-        """The lines with names for their coefficients."""
-        return eliminant.named_lines if isinstance(eliminant, PairEliminant) else self.lines
-
     def values_of(self, eliminant: AngleEliminant) -> Iterator[Definition]:
         """The circles at a root, and what follows of them."""
         (first, last), (under, x, y, det, m, n) = self.circles, (own.symbol for own in eliminant.backward)

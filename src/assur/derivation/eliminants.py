@@ -48,10 +48,6 @@ class _Leftover:
         """The polynomial that is left."""
         return _eliminant(self, names)
 
-    def written_lines(self, eliminant: AngleEliminant) -> tuple[Form, ...]:
-        """The lines, as they are."""
-        return self.lines
-
     def values_of(self, eliminant: AngleEliminant) -> Iterator[Definition]:
         """The unknowns by Cramer's rule, and what follows of them."""
         for k, unknown in enumerate(self.unknowns, start=1):
@@ -105,7 +101,7 @@ def eliminated(
     return SolvedSet(
         (left.base, *(direction for direction in directions if direction is not left.base)),
         tuple(equations),
-        left.written_lines(eliminant),
+        eliminant.named_lines or left.lines,
         tuple(dict.fromkeys((*left.conditions, *eliminant.divisors))),
         (*eliminant.known, *after),
         (),
