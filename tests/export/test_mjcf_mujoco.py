@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from assur.crosscheck import engine as engines
+from assur.export.bodies import MASS
+from assur.export.names import link_name
 from assur.joint_graph.frames import frames
 from assur.kinematics.closure import mobility
+from assur.machine.masses import masses
 
 pytestmark = pytest.mark.sim
 
@@ -22,3 +25,18 @@ def test_links_loops_and_freedoms_are_ours(record, elsewhere, anywhere, metre):
     engines.put(engine, elsewhere)
     assert np.max(np.abs(engines.constraints(engine)[0])) < 1e-9
     assert engines.freedoms(engine) == mobility(record, elsewhere).freedoms
+
+
+def test_masses_are_those_of_the_file(record):
+    """Principal moments as MuJoCo finds them; a point has those of a carrier."""
+    engine, known = engines.engine(record), masses(record)
+    bodies = known.carried(record.platform.link)
+    for link in record.links:
+        body = engine.model.body(link_name(link))
+        own = None if known.lacking else bodies.get(link)
+        assert body.mass[0] == pytest.approx(MASS if own is None else own.mass)
+        if own is not None:
+            np.testing.assert_allclose(body.ipos, own.centre, atol=1e-12)
+            moments, nominal = np.linalg.eigvalsh(own.inertia), 4e-7 * engine.bodies.size**2
+            np.testing.assert_allclose(np.sort(body.inertia), moments + nominal, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(engine.model.opt.gravity, known.gravity)

@@ -62,7 +62,8 @@ def export(
     only MuJoCo and Newton read. SDF 1.9 has every joint as it is, and no motors:
     libsdformat 12 and newer (Gazebo) read it, Drake refuses its loops. URDF is a
     tree, which all of them read; no engine reads its loops, which stand in a
-    file beside it, FILE.loops.json. Masses are nominal: 1 kg for each link.
+    file beside it, FILE.loops.json. Masses are those of the mechanism's file; where
+    it does not say all of them they are nominal: 1 kg for each link.
 
     Prototype files have links with bores, pins, rails and carriages; lengths
     that the joint graph gives are kept, all others are drawn, to begin with.
@@ -102,8 +103,10 @@ def export(
     answer = WrittenExport(record.name, format_, tuple(written))
     if format_ in SIMULATED:
         from assur.export.bodies import MASS
+        from assur.machine.masses import masses
 
-        answer = replace(answer, nominal_mass_kg=MASS)
+        if masses(record).lacking:
+            answer = replace(answer, nominal_mass_kg=MASS)
     elif format_ != "c":
         from assur.scene.sizes import thickness
 

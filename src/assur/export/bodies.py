@@ -21,18 +21,21 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.kinematics.validation.check import METRES
+from assur.machine.masses import RigidBody, masses
 from assur.model.mechanism import Joint, MechanismRecord
 
 FloatArray = NDArray[np.float64]
 
 MASS = 1.0
-"""Nominal mass of a link, in kg."""
+"""Nominal mass of a link, in kg, where the file does not say what all links weigh."""
 
 CARRIER_MASS = 1e-3
 """Nominal mass of a carrier, in kg."""
 
 CARRIER_INERTIA = 4e-7
-"""Nominal inertia of a carrier about any axis, in kg m^2 per m^2 of the characteristic length."""
+"""Nominal inertia of a carrier about any axis, in kg m^2 per m^2 of the characteristic length.
+
+Added to that of links as well: points and slender bars have none about some axis, which engines refuse."""
 
 THICKNESS = 0.02
 """Radius of the drawn capsules, as a share of the characteristic length."""
@@ -54,9 +57,9 @@ class Body:
         orientation, position: (3, 3) and (3,) of its frame in that of the parent at home, in m.
         steps: the elementary joints that carry it, the one nearest to the parent first.
         centres: (k, 3) joint centres and, of the platform, its point, in its frame, in m.
-        mass: in kg, nominal.
-        centre: (3,) the mean of the centres, taken for the centre of mass.
-        inertia: about any axis through it, in kg m^2: that of a ball as wide as the centres are apart.
+        mass: in kg, of the platform with its payload; nominal where the file does not say what all links weigh.
+        centre: (3,) of mass; nominal is the mean of the centres.
+        inertia: (3, 3) tensor about it, in kg m^2; nominal is that of a ball as wide as the centres are apart.
     """
 
     name: str
@@ -67,7 +70,7 @@ class Body:
     centres: FloatArray
     mass: float
     centre: FloatArray
-    inertia: float
+    inertia: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +100,8 @@ class Bodies:
         home: (n,) our joint values at home, in the mechanism's unit and rad.
         metre: the mechanism's length unit in m.
         size: the characteristic length in m.
+        gravity: (3,) in m/s^2.
+        nominal: whether masses are.
         steps: every elementary joint by name.
     """
 
@@ -105,6 +110,8 @@ class Bodies:
     home: FloatArray
     metre: float
     size: float
+    gravity: FloatArray
+    nominal: bool
 
     @property
     def steps(self) -> dict[str, ElementaryJoint]:
@@ -125,12 +132,16 @@ def bodies(record: MechanismRecord) -> Bodies:
     graph = joint_graph(record)
     metre = METRES[record.unit]
     size = metre * characteristic_length(record)
+    known = masses(record)
     made = {record.base: _body(record, record.base, "", placed[record.base], placed[record.base], (), size)}
     for joint, forward in graph.tree:
         near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
         steps = joint_steps(record, joint, home, forward=forward, metre=metre)
         made[far] = _body(record, far, near, placed[near], placed[far], steps, size)
-    tree = Bodies(made, (), home, metre, size)
+    if not known.lacking:
+        heavy = known.carried(record.platform.link)
+        made = {name: _weighed(body, heavy[name], size) if name in heavy else body for name, body in made.items()}
+    tree = Bodies(made, (), home, metre, size, known.gravity, bool(known.lacking))
     cut = [_cut(record, joint, tree, placed) for joint in graph.cut]
     carriers = {body.name: body for body, _ in cut if body is not None}
     return replace(tree, bodies=made | carriers, closures=tuple(closure for _, closure in cut))
@@ -170,7 +181,7 @@ def carrier(
     size: float,
 ) -> Body:
     """A nominal body with its mass at one point (3,), in m; `place`: its parent, orientation and position there."""
-    return Body(name, *place, steps, at[None], CARRIER_MASS, at, CARRIER_INERTIA * size**2)
+    return Body(name, *place, steps, at[None], CARRIER_MASS, at, CARRIER_INERTIA * size**2 * np.eye(3))
 
 
 def _cut(
@@ -222,7 +233,15 @@ def _body(
     centres = metre * _centres(record, name)
     centre = np.mean(centres, axis=0)
     reach = max(float(np.max(np.linalg.norm(centres - centre, axis=-1))), THICKNESS * size)
-    return Body(name, parent, orientation, metre * position, steps, centres, MASS, centre, 0.4 * MASS * reach**2)
+    return Body(
+        name, parent, orientation, metre * position, steps, centres, MASS, centre, 0.4 * MASS * reach**2 * np.eye(3)
+    )
+
+
+def _weighed(body: Body, own: RigidBody, size: float) -> Body:
+    """A body with the mass that the file says."""
+    tensor = own.inertia + CARRIER_INERTIA * size**2 * np.eye(3)
+    return replace(body, mass=own.mass, centre=own.centre, inertia=tensor)
 
 
 def _relative(near: Frame, far: Frame) -> Frame:

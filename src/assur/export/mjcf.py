@@ -25,7 +25,7 @@ from assur.export.steps import ElementaryJoint
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
 from assur.model.mechanism import MechanismRecord
 
-NOTE = "masses and sizes of bodies are nominal; lengths in m, angles in rad; key 'home' is the assembled home"
+NOTE = "sizes of bodies are nominal; masses in kg, lengths in m, angles in rad; key 'home' is the assembled home"
 TIMESTEP = 5e-4
 STIFF = {"solref": "0.001 1", "solimp": "0.999 0.9999 0.001 0.5 2"}
 """Constraints that give way for one millisecond, critically damped: the stiffest that the time step allows."""
@@ -53,7 +53,7 @@ def mjcf(record: MechanismRecord, *, servos: bool = False) -> str:
     root = ElementTree.Element("mujoco", model=record.name)
     comment(root, f"{record.title}; {NOTE}")
     child(root, "compiler", angle="radian", autolimits="true")
-    child(root, "option", timestep=number(TIMESTEP), integrator="implicitfast")
+    child(root, "option", timestep=number(TIMESTEP), integrator="implicitfast", gravity=numbers(model.gravity))
     defaults = child(root, "default")
     child(defaults, "geom", contype="0", conaffinity="0")
     child(defaults, "site", size=number(radius(model)))
@@ -100,6 +100,7 @@ def printed(record: MechanismRecord, model: Bodies) -> Bodies:
 def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
     """Bodies inside each other, with their joints, shapes and sites."""
     made: dict[str, Element] = {"": world}
+    rotors = {joint: actuator.rotor for joint, actuator in record.machine.actuators.items() if actuator.rotor}
     for body in model.bodies.values():
         element = child(
             made[body.parent],
@@ -109,9 +110,9 @@ def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
             quat=quaternion(body.orientation),
         )
         made[body.name] = element
-        inertia = numbers([body.inertia] * 3)
-        child(element, "inertial", pos=numbers(body.centre), mass=number(body.mass), diaginertia=inertia)
-        _joints(element, body)
+        inertia = numbers(body.inertia[([0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2])])
+        child(element, "inertial", pos=numbers(body.centre), mass=number(body.mass), fullinertia=inertia)
+        _joints(element, body, rotors)
         _shapes(element, body, model)
     _sites(record, model, made)
 
@@ -127,13 +128,15 @@ def _sites(record: MechanismRecord, model: Bodies, made: Mapping[str, Element]) 
         child(made[record.platform.link], "site", name=site, pos=numbers(at))
 
 
-def _joints(element: Element, body: Body) -> None:
+def _joints(element: Element, body: Body, rotors: Mapping[str, float]) -> None:
     for step in body.steps:
         at = numbers(step.at)
         if step.kind == "ball":
             child(element, "joint", name=step.name, type="ball", pos=at)
             continue
         options = {} if step.limits is None else {"range": numbers(step.limits)}
+        if step.name in rotors:
+            options["armature"] = number(rotors[step.name])
         axis, ref = numbers(step.axis), number(step.home)
         child(element, "joint", name=step.name, type=step.kind, pos=at, axis=axis, ref=ref, **options)
 

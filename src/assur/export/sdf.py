@@ -17,14 +17,14 @@ from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bod
 from assur.export.names import Names
 from assur.export.shapes import arms, radius
 from assur.export.steps import ElementaryJoint, joint_steps
-from assur.export.xml_text import Element, child, comment, document, number, numbers
+from assur.export.xml_text import Element, child, comment, document, number, numbers, tensor_entries
 from assur.joint_graph.frames import frames
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 VERSION = "1.9"
-NOTE = "masses and sizes are nominal; lengths in m, angles in rad; it stands at home, where every joint is at zero"
+NOTE = "sizes are nominal; masses in kg, lengths in m, angles in rad; it stands at home, where every joint is at zero"
 
 
 def sdf(record: MechanismRecord) -> str:
@@ -77,15 +77,13 @@ def _solid(element: Element, body: Body, model: Bodies) -> None:
         _shape(element, f"arm{k}", arm.turn, arm.middle, "capsule", radius=size, length=number(arm.length))
 
 
-def _mass(element: Element, mass: float, centre: FloatArray, inertia: float) -> None:
+def _mass(element: Element, mass: float, centre: FloatArray, inertia: FloatArray) -> None:
     inertial = child(element, "inertial")
     child(inertial, "pose", pose(np.eye(3), centre), rotation_format="quat_xyzw")
     child(inertial, "mass", number(mass))
     matrix = child(inertial, "inertia")
-    for name in ("ixx", "iyy", "izz"):
-        child(matrix, name, number(inertia))
-    for name in ("ixy", "ixz", "iyz"):
-        child(matrix, name, "0")
+    for name, entry in tensor_entries(inertia).items():
+        child(matrix, name, entry)
 
 
 def _shape(element: Element, name: str, turn: FloatArray, at: FloatArray, kind: str, **sizes: str) -> None:
@@ -112,7 +110,7 @@ def _joint(
         for name, step in zip(between, steps, strict=False):
             link = child(top, "link", name=name)
             child(link, "pose", pose(*placed[joint.child]), rotation_format="quat_xyzw")
-            _mass(link, CARRIER_MASS, step.at, CARRIER_INERTIA * model.size**2)
+            _mass(link, CARRIER_MASS, step.at, CARRIER_INERTIA * model.size**2 * np.eye(3))
         for step, near, far in zip(steps, [parent, *between], [*between, own], strict=True):
             kind = "prismatic" if step.kind == "slide" else "revolute"
             _element(top, names.new(step.name, "joint"), kind, near, far, [step])

@@ -17,13 +17,13 @@ from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bod
 from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import ElementaryJoint
-from assur.export.xml_text import Element, child, comment, document, number, numbers
+from assur.export.xml_text import Element, child, comment, document, number, numbers, tensor_entries
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
-NOTE = "masses and sizes are nominal; lengths in m, angles in rad; it stands at home, where every joint is at zero"
+NOTE = "sizes are nominal; masses in kg, lengths in m, angles in rad; it stands at home, where every joint is at zero"
 EFFORT, VELOCITY = 1000.0, 10.0
 """Nominal limits, which URDF asks for: N or N m, and m/s or rad/s."""
 
@@ -104,7 +104,7 @@ def _joints(root: Element, body: Body, model: Bodies) -> None:
             child(made, "limit", effort=number(EFFORT), velocity=number(VELOCITY), **bounds)
         place = {"xyz": "0 0 0", "rpy": "0 0 0"}
         if far in names:
-            _mass(child(root, "link", name=far), CARRIER_MASS, np.zeros(3), CARRIER_INERTIA * model.size**2)
+            _mass(child(root, "link", name=far), CARRIER_MASS, np.zeros(3), CARRIER_INERTIA * model.size**2 * np.eye(3))
 
 
 def _kind(step: ElementaryJoint) -> str:
@@ -123,12 +123,11 @@ def _solid(element: Element, body: Body, model: Bodies) -> None:
         _shape(element, arm.turn, arm.middle - shift, "cylinder", radius=size, length=number(arm.length))
 
 
-def _mass(element: Element, mass: float, centre: FloatArray, inertia: float) -> None:
+def _mass(element: Element, mass: float, centre: FloatArray, inertia: FloatArray) -> None:
     inertial = child(element, "inertial")
     child(inertial, "origin", xyz=numbers(centre), rpy="0 0 0")
     child(inertial, "mass", value=number(mass))
-    same, none = number(inertia), "0"
-    child(inertial, "inertia", ixx=same, ixy=none, ixz=none, iyy=same, iyz=none, izz=same)
+    child(inertial, "inertia", **tensor_entries(inertia))
 
 
 def _shape(element: Element, turn: FloatArray, at: FloatArray, kind: str, **sizes: str) -> None:

@@ -28,6 +28,17 @@ def numbers(values: ArrayLike) -> str:
     return " ".join(number(float(value)) for value in np.ravel(np.asarray(values, dtype=float)))
 
 
+def tensor_entries(tensor: ArrayLike) -> dict[str, str]:
+    """Entries of a tensor of inertia (3, 3) as SDF and URDF name them.
+
+    >>> tensor_entries([[1, 0, 0.5], [0, 2, 0], [0.5, 0, 3]])
+    {'ixx': '1', 'ixy': '0', 'ixz': '0.5', 'iyy': '2', 'iyz': '0', 'izz': '3'}
+    """
+    rows = np.asarray(tensor, dtype=float)
+    places = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
+    return {name: number(rows[row, column]) for name, row, column in places}
+
+
 def quaternion(orientation: ArrayLike) -> str:
     """Unit quaternion w x y z of a rotation (3, 3)."""
     return numbers(rotations.to_quaternion(np.asarray(orientation, dtype=float)))

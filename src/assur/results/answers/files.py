@@ -120,7 +120,7 @@ class BillRow:
 
 @dataclass(frozen=True)
 class WrittenExport(Answer):
-    """Files for simulators (with the mass of a link), or of solids (with their thickness and what has to be made)."""
+    """Files for simulators (with nominal masses), or of solids (with their thickness and what has to be made)."""
 
     mechanism: str
     format: str
