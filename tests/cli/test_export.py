@@ -5,13 +5,24 @@ from xml.etree import ElementTree
 
 import pytest
 
+import assur
+
+
+def test_without_masses_they_are_nominal(assur_cli, tmp_path):
+    text = assur.load("fivebar").file.read_text(encoding="utf-8").partition("# ---- the machine")[0]
+    path = tmp_path / "bare.toml"
+    path.write_text(text.replace('profile = "bar20", material = "steel", ', ""))
+    words = ("export", str(path), "--format", "mjcf", "-o", str(tmp_path / "it.xml"))
+    assert "masses are nominal: 1 kg for each link" in assur_cli(*words).out
+    assert assur_cli(*words, "--json").json["nominal_mass_kg"] == 1.0
+
 
 @pytest.mark.parametrize(("form", "ending"), [("mjcf", "xml"), ("sdf", "sdf"), ("urdf", "urdf")])
 def test_a_file_is_written_where_it_is_asked_for(assur_cli, tmp_path, form, ending):
     path = tmp_path / f"it.{ending}"
     run = assur_cli("export", "fivebar", "--format", form, "-o", str(path))
     assert run.code == 0, run.err
-    assert "nominal" in run.out
+    assert "masses are those of the mechanism's file" in run.out
     ElementTree.parse(path)
 
 

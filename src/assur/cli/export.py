@@ -141,6 +141,8 @@ def _shown(record: Mechanism, data: WrittenExport) -> Iterable[RenderableType]:
     )
     if data.nominal_mass_kg is not ABSENT:
         yield f"masses are nominal: {data.nominal_mass_kg:g} kg for each link"
+    elif data.format in SIMULATED:
+        yield "masses are those of the mechanism's file: see assur show --masses"
     rows = () if data.bill is ABSENT else data.bill
     for kind, title in (("make", "to make, sizes in mm"), ("buy", "to buy")):
         chosen = [(str(row.count), row.what, " ".join(row.names)) for row in rows if row.kind == kind]
