@@ -31,6 +31,7 @@ UNLIKE = {
     "a limb with a loop in it": [LOOPED, "R[z] R[z] C[z]"],
     "a limb with a loop in it, last": ["R[z] R[z] C[z]", LOOPED],
     "five-bar with a slider in a limb": ["R[z] R[z]", "R[z] P[x] R[z]"],
+    "a slider on the platform of a five-bar": ["R[z] R[z] R[z]", "R[z] P[x]"],
     "five-bar with a driven slider": ["P[x] R[z]", "P[y] R[z] R[z]"],
     "a sign that is a product of roots": ["C[x] R[x] R[x]", "R[y] R[y] C[y]", "P[z] R[z] R[z] R[z]"],
     "parallelograms in another order": [LOOPED, "P[y] P(4R)[x] P(4R)[y]"],
@@ -98,6 +99,26 @@ def test_a_draft_with_sliders_on_its_platform_has_a_closed_form_that_its_joint_g
     (tmp_path / "own" / "mechanism.toml").write_text(record.file.read_text(encoding="utf-8"), encoding="utf-8")
     assert main(["derive", str(tmp_path / "own"), "-o", str(tmp_path / "own" / "closed_form.py")]) == 0
     assert problems(load_record(tmp_path / "own"), IN_FULL)[0] == ()
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(("problem", "branches"), [("direct", 2), ("inverse", 4)])
+def test_a_platform_that_slides_on_one_limb_and_is_jointed_to_the_other_is_proved(problem, branches, tmp_path, capsys):
+    record = draft_of(parse_chains(UNLIKE["a slider on the platform of a five-bar"]), tmp_path)
+    assert main(["derive", str(record.file), "--problem", problem, "--prove", "--json"]) == 0
+    proof = tmp_path / "d.json"
+    proof.write_text(capsys.readouterr().out)
+    assert main(["verify", str(proof), "--mechanism", str(record.file)]) == 0
+    assert f"{problem}: derivation verified: {branches} branches" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.deep
+def test_the_vector_of_a_platform_that_slides_ends_at_the_point_that_the_pose_gives(tmp_path, capsys):
+    record = draft_of(parse_chains(UNLIKE["a slider on the platform of a five-bar"]), tmp_path)
+    assert main(["derive", str(record.file), "--problem", "inverse"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "N1 = 0: b1.D and the platform's point coincide" in said
+    assert "M1 < 0: b1.D and the platform's point are nearer than the offset of platform" in said
 
 
 def test_the_inverse_problem_of_a_sliding_draft_is_proved(tmp_path, capsys):

@@ -3,8 +3,14 @@
 import math
 
 import pytest
+import sympy
 
+from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.sets import next_set
 from assur.derivation.solution import analytic_solution
+from assur.derivation.strokes import stroke_vectors
+from assur.derivation.witness import ModularWitness
 from assur.model.registry import load_record
 
 ASIDE = """
@@ -84,3 +90,30 @@ def test_an_end_aside_of_its_slider_is_reached_in_two_ways(tmp_path):
     solution = analytic_solution(load_record(path), "direct")
     assert solution.branches == 2
     assert solution.closes()
+
+
+def platform_on_a_slider(*places):
+    """A slider on a platform that turns; each place (along, aside) of the platform stands at x, y."""
+    q, c, s, x, y = sympy.symbols("q c s x y")
+    circle = UnknownDirection("circle", "platform", (c, s), ("platform",))
+    one = sympy.Integer(1)
+    forms = [form for along, aside in places
+             for form in ({c: q + along, s: -aside, one: -x}, {c: aside, s: q + along, one: -y})]  # fmt: skip
+    return stroke_vectors(forms, {q: circle}, ModularWitness())
+
+
+def test_what_else_a_platform_holds_waits_for_the_vector_with_its_slider():
+    a, b = sympy.symbols("a b")
+    (vector,), forms = platform_on_a_slider((0, 0), (a, b))
+    c, s = vector.circle.unknowns
+    assert [sorted(map(str, form.keys() & {c, s})) for form in forms] == [[], [], ["c", "s"], ["c", "s"]]
+    chosen, equations = next_set(forms, [vector.direction], ModularWitness(), after=[vector.circle])
+    assert chosen == (vector.direction,)
+    assert not any({c, s} & form.keys() for form in equations)
+
+
+def test_a_vector_that_is_not_solved_alone_is_refused_by_its_link():
+    a, b = sympy.symbols("a b")
+    (vector,), forms = platform_on_a_slider((0, 0), (a, b))
+    with pytest.raises(NotDerivedError, match="platform: turns, carries a slider, and no vector"):
+        next_set(forms[2:], [vector.direction], ModularWitness(), after=[vector.circle])

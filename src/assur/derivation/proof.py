@@ -82,7 +82,8 @@ class _Proof:
         done = {
             own for before in self.solution.sets[:k] for direction in before.directions for own in direction.unknowns
         }
-        left = [own for direction in self.directions for own in direction.unknowns if own not in done]
+        after = [vector.circle for vector in self.vectors if not done & {*vector.direction.unknowns}]
+        left = [own for direction in (*self.directions, *after) for own in direction.unknowns if own not in done]
         rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
         span = LinearSpan(rows, left, self.witness, self.fixed)
         if part.eliminant is not None:

@@ -90,12 +90,16 @@ class _Meeting:
         self.lines, self.part = meanings.lines, part
         self.witness = meanings.solution.symbols.witness
         self.known = meanings.known_links(part)
+        symbols = meanings.solution.symbols
+        self.poses = symbols.record.platform.link if symbols.problem == "inverse" else None
         self.own = {own: self.lines.of(own) for own in part.directions}
 
     def radicand(self, root: Root) -> GeometricPhrase:
         stroke = self._stroke(root.radicand)
         if stroke is not None:
-            text, names = joined(self._ends(stroke))
+            if len(ends := self._ends(stroke)) > PAIR:  # the vector joins two of them
+                return phrase("the vector along which {} slides is shorter than its offset", self.lines.name(stroke))
+            text, names = joined(ends)
             beside = any(own.symbol == root.radicand and own.formula.is_Add for own in self.part.definitions)
             return phrase(f"{text} are nearer than the offset of {{}}" if beside else f"{text} coincide",
                           *names, *([self.lines.name(stroke)] if beside else []))  # fmt: skip
@@ -104,7 +108,9 @@ class _Meeting:
     def condition(self, condition: sympy.Expr) -> GeometricPhrase:
         stroke = self._stroke(condition)
         if stroke is not None:
-            text, names = joined(self._ends(stroke))
+            if len(ends := self._ends(stroke)) > PAIR:
+                return phrase("the vector along which {} slides has no length", self.lines.name(stroke))
+            text, names = joined(ends)
             return phrase(f"{text} coincide", *names)
         own = self.part.eliminant
         if isinstance(own, PairEliminant) and own.pair is not None and condition in own.divisors:
@@ -236,8 +242,11 @@ class _Meeting:
         return next((own for own in strokes if used & {*own.unknowns}), None)
 
     def _ends(self, direction: UnknownDirection) -> list[PhrasePart]:
-        """The joints at both ends of links that slide along each other."""
+        """What the vector of links that slide along each other joins: joints at both ends, or the platform's point."""
         links = {*direction.links}
-        names = [joint.name for link in direction.links for joint in self.lines.joints(link)
-                 if not {joint.parent, joint.child} <= links]  # fmt: skip
-        return [NamedJoint(name) for name in dict.fromkeys(names)]
+        joints = [joint for link in direction.links for joint in self.lines.joints(link)
+                  if not {joint.parent, joint.child} <= links]  # fmt: skip
+        if self.poses in links:
+            joints = [joint for joint in joints if {joint.parent, joint.child} - links <= self.known]
+        names: list[PhrasePart] = [NamedJoint(name) for name in dict.fromkeys(joint.name for joint in joints)]
+        return [*names, "the platform's point"] if self.poses in links else names

@@ -17,25 +17,36 @@ from assur.derivation.witness import ModularWitness
 
 
 def next_set(
-    forms: Sequence[Form], left: Sequence[UnknownDirection], witness: ModularWitness, more: int = 0
+    forms: Sequence[Form],
+    left: Sequence[UnknownDirection],
+    witness: ModularWitness,
+    more: int = 0,
+    after: Sequence[UnknownDirection] = (),
 ) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
     """The smallest set among the directions that are left, and the equations in which these alone are unknown.
 
-    With `more` equations than it needs, that many of what is taken as known are determined too.
+    With `more` equations than it needs, that many of what is taken as known are determined too. Directions `after`
+    follow of some that are left: equations with them wait until these are known.
 
     Errors:
-        NotDerivedError: the equations determine none.
+        NotDerivedError: the equations determine none, or none before directions `after` are known.
     """
-    all_unknowns = [unknown for direction in left for unknown in direction.unknowns]
+    waiting = [unknown for direction in after for unknown in direction.unknowns]
+    all_unknowns = [*(unknown for direction in left for unknown in direction.unknowns), *waiting]
     whole = rank(forms, all_unknowns, witness)
     for size in range(1, len(left) + 1):
         for chosen in combinations(left, size):
             others = [unknown for direction in left if direction not in chosen for unknown in direction.unknowns]
+            others += waiting
             if whole - rank(forms, others, witness) >= more + sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
                 kept = _independent(own, [unknown for direction in chosen for unknown in direction.unknowns], witness)
                 return chosen, kept if more else sparse(kept, witness, everywhere=True)
     names = ", ".join(direction.name for direction in left)
+    if blocked := [own.name for own in after if any({*own.unknowns} & form.keys() for form in forms)]:
+        raise NotDerivedError(
+            f"{' and '.join(blocked)}: turns, carries a slider, and no vector with it is solved alone"
+        )
     raise NotDerivedError(f"what is given does not determine {names}")
 
 

@@ -76,15 +76,20 @@ class _Order:
             raise ResistingSetError(said, self.placed, tuple(sets), last.directions)
         return tuple(sets)
 
+    @property
+    def _after(self) -> tuple[UnknownDirection, ...]:
+        """Directions of links whose vectors are still unknown."""
+        return tuple(own.circle for own in self.vectors if own.direction in self.left)
+
     def _next(self, later: bool) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
-        chosen, equations = next_set(self.forms, self.left, self.witness)
+        chosen, equations = next_set(self.forms, self.left, self.witness, after=self._after)
         if later and not self.problem.loops.axes and not self.carriers and self._follow(equations):
-            apart = [own for own in self.every if own not in chosen]
+            apart = [own for own in (*self.every, *self._after) if own not in chosen]
             if alone := equations_alone(self.problem.forms, chosen, apart, self.witness):
                 return chosen, alone
         if later and not self.problem.loops.axes and not self._plain(equations):
             own = [divided(form) for form in self._rest(self.problem.plain())]
-            other, others = next_set(sparse(own, self.witness), self.left, self.witness)
+            other, others = next_set(sparse(own, self.witness), self.left, self.witness, after=self._after)
             if self._steady(others) and (not self._steady(equations) or size(others) < size(equations)):
                 return other, others
         return chosen, equations
@@ -95,7 +100,7 @@ class _Order:
         for form in forms:
             factors = {symbol for key, part in form.items() if key != ONE for symbol in part.free_symbols}
             turning = [own for own in self.carriers if factors & {*own.unknowns}]
-            unknowns = _unknowns([own for own in self.left if own not in turning])
+            unknowns = _unknowns([own for own in (*self.left, *self._after) if own not in turning])
             left.append(form_of(value_of(form), unknowns, self.witness))
         unknowns = _unknowns(self.left)
         return [form for form in left if any({*unknowns} & part.free_symbols for part in (*form, *form.values()))]
@@ -127,7 +132,7 @@ class _Order:
         others = [own for own in self.left if own not in turning]
         forms = [form_of(value_of(form), _unknowns(others), self.witness) for form in self.forms]
         others.sort(key=lambda own: -sum(form.keys() <= {ONE, *own.unknowns} for form in forms))
-        chosen, equations = next_set(forms, others, self.witness, more=1)
+        chosen, equations = next_set(forms, others, self.witness, more=1, after=self._after)
         self.chosen = *turning, *chosen
         return eliminated(self.chosen, equations, self.witness, self.taken, carrier=turning[0])
 

@@ -1,9 +1,10 @@
 """Sliders on links that turn: a length along a direction that turns is a vector, in which the loops are linear.
 
-Let a link turn by (c, s) in a plane, and a length q run along its direction p. Where it meets the loop equations only
-by one vector of the link, V = (q + w1) (c, s) + w2 (-s, c), the two components of V take the place of q, c and s. Then
-(q + w1)^2 = V.V - w2^2, with either sign, and (c, s) follow of V. Along a rod between ball or universal joints, whose
-direction is e, it is V = (q + w1) e.
+Let a link turn by (c, s) in a plane, and a length q run along its direction p. Where it meets the loop equations by
+one vector of the link, V = (q + w1) (c, s) + w2 (-s, c), the two components of V take the place of q, c and s. Then
+(q + w1)^2 = V.V - w2^2, with either sign, and (c, s) follow of V. Where a link has another vector too, as a platform
+that slides on one limb and is jointed to the next, (c, s) stay in the equations of that: these follow after V. Along a
+rod between ball or universal joints, whose direction is e, it is V = (q + w1) e.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ def stroke_vectors(
         witness: by which what vanishes is told.
 
     Errors:
-        NotDerivedError: a link that turns and has more than one vector in the loops.
+        NotDerivedError: a rod that turns and has more than one vector in the loops.
 
     Example: a slider on a turning link whose end stands aside by a.
 
@@ -67,15 +68,13 @@ def stroke_vectors(
     vectors: list[StrokeVector] = []
     left = list(forms)
     for length, circle in strokes.items():
-        vector = (_along_rod if circle.kind == "rod" else _vector)(left, length, circle, witness)
-        left = [_replaced(form, vector) for form in left]
+        vector = _along_rod(left, length, circle, witness) if circle.kind == "rod" else _vector(left, length, circle)
+        left = [_replaced(form, vector, witness) for form in left]
         vectors.append(vector)
     return tuple(vectors), left
 
 
-def _vector(
-    forms: Sequence[Form], length: sympy.Symbol, circle: UnknownDirection, witness: ModularWitness
-) -> StrokeVector:
+def _vector(forms: Sequence[Form], length: sympy.Symbol, circle: UnknownDirection) -> StrokeVector:
     rows = [_parts(form, length, circle) for form in forms if form.keys() & {*circle.unknowns}]
     along = beside = ZERO
     for p, q, first, second in sorted(rows, key=lambda row: sum(int(sympy.count_ops(part)) for part in row)):
@@ -84,10 +83,6 @@ def _vector(
             along = sympy.factor(sympy.cancel((first * p + second * q) / square))
             beside = sympy.factor(sympy.cancel((first * q - second * p) / square))
             break
-    for p, q, first, second in rows:
-        gaps = first - along * p - beside * q, second - along * q + beside * p
-        if not all(map(witness.is_zero, gaps)):
-            raise NotDerivedError(f"{circle.name} turns, carries a slider, and has two vectors in the loops")
     name = circle.name
     unknowns = tuple(sympy.Symbol(f"v{axis}_{name}", real=True) for axis in "xy")
     return StrokeVector(length, circle, along, beside, UnknownDirection("stroke", name, unknowns, circle.links))
@@ -120,12 +115,20 @@ def _parts(
     return c.coeff(length), s.coeff(length), c.subs(length, 0), s.subs(length, 0)
 
 
-def _replaced(form: Form, vector: StrokeVector) -> Form:
+def _replaced(form: Form, vector: StrokeVector, witness: ModularWitness) -> Form:
+    """An equation in the vector. What else of the link is in it stays in the link's own direction."""
     old = vector.circle.unknowns
-    parts = [sympy.expand(form.get(unknown, ZERO)).coeff(vector.length) for unknown in old]
     rest = {key: part for key, part in form.items() if key not in old}
-    shares = zip(vector.direction.unknowns, parts, strict=True)
-    return rest | {unknown: share for unknown, share in shares if share != 0}
+    if vector.circle.kind == "rod":
+        shares = [sympy.expand(form.get(unknown, ZERO)).coeff(vector.length) for unknown in old]
+        gaps: tuple[sympy.Expr, ...] = ()
+    else:
+        p, q, first, second = _parts(form, vector.length, vector.circle)
+        shares = [p, q]
+        gaps = first - vector.along * p - vector.beside * q, second - vector.along * q + vector.beside * p
+    own = dict(zip(vector.direction.unknowns, shares, strict=True))
+    turning = {unknown: sympy.factor(gap) for unknown, gap in zip(old, gaps, strict=False) if not witness.is_zero(gap)}
+    return rest | {unknown: share for unknown, share in own.items() if share != 0} | turning
 
 
 def with_strokes(
