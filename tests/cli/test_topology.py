@@ -25,17 +25,27 @@ def chains(*texts):
 # ---- what is said ------------------------------------------------------------------------------------------
 
 
-def test_the_result_stands_in_the_first_five_lines(assur_cli):
+def test_the_result_stands_in_the_first_lines(assur_cli):
     run = assur_cli("topology", "zeng2019")
     assert (run.code, run.err) == (0, "")
-    head = run.out.splitlines()[:6]
+    head = run.out.splitlines()[:7]
     assert head[0].startswith("zeng2019: ")
     assert head[1].split() == ["POC", "set", "t³", "r⁰:", "dim", "3"]
-    assert head[2].split(" = ")[:2] == ["DOF          F", "3"]
-    assert "2: ξ1 = 3, Δ1 = +1; ξ2 = 5, Δ2 = -1" in head[3]
-    assert head[4].endswith("κ = 1")
-    assert head[5].split()[:2] == ["redundant", "4"]
-    assert " 10 of all joints" in head[5]
+    assert head[2].split() == ["motion", "3T"]
+    assert head[3].split(" = ")[:2] == ["DOF          F", "3"]
+    assert "2: ξ1 = 3, Δ1 = +1; ξ2 = 5, Δ2 = -1" in head[4]
+    assert head[5].endswith("κ = 1; full freedom: one Assur chain has all drives")
+    assert head[6].split()[:2] == ["redundant", "4"]
+    assert " 10 of all joints" in head[6]
+
+
+def test_a_planar_five_bar_has_two_readings(assur_cli):
+    five_bar = chains("R[z] R[z] R[z]", "R[z] R[z]")
+    assert assur_cli("topology", *five_bar).out.splitlines()[2].split("  ")[-1].strip() == (
+        "1T1R; 2T by the translations of a general point"
+    )
+    data = assur_cli("topology", *five_bar, "--json").json
+    assert (data["motion_type"], data["freedom_type"]) == ("1T1R", "full")
 
 
 def test_json_of_the_papers_mechanism_has_the_papers_numbers(assur_cli):

@@ -1,4 +1,4 @@
-"""What `assur topology` says: the result in five lines, the derivation, then table by table."""
+"""What `assur topology` says: the result in a few lines, the derivation, then table by table."""
 
 from __future__ import annotations
 
@@ -23,6 +23,12 @@ Said = Callable[[str], str]
 """A text as it is printed: as it is, or in plain letters."""
 
 _LONG = re.compile(r"-?\d+\.\d{5,}")
+
+FREEDOM = {
+    "full": "one Assur chain has all drives",
+    "partial": "several Assur chains that hang together have them",
+    "separable": "drives of parts that do not hang together",
+}
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 
@@ -113,18 +119,27 @@ def _title(topology: Topology) -> str:
 
 
 def _result(topology: Topology) -> Iterator[str]:
-    """The five lines that a reader came for."""
+    """The lines that a reader came for."""
     poc = topology.poc
     dependent = f", {poc.dependent} of {poc.t + poc.r} dependent" if poc.dependent else ""
     yield f"POC set      {poc}: dim {poc.dim}{dependent}"
+    other = topology.translating_type
+    points = f"; {other} by the translations of a general point" if other != topology.motion_type else ""
+    yield f"motion       {topology.motion_type}{points}"
     internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
     yield f"DOF          F = {topology.dof}{_sum(topology)}{internal}"
     loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(topology.loops, 1))
     yield f"loops        {len(topology.loops)}" + (f": {loops}" if loops else "")
     degree = topology.coupling_degree
-    yield (f"coupling     κ = {degree}" if degree is not None else f"coupling     none: {topology.coupling_refusal}")
+    solved = f"none: {topology.coupling_refusal}" if degree is None else f"κ = {degree}{_freedom(topology)}"
+    yield f"coupling     {solved}"
     redundant = topology.redundant_constraints
     yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
+
+
+def _freedom(topology: Topology) -> str:
+    """How the drives share the freedoms."""
+    return f"; {topology.freedom_type} freedom: {FREEDOM[topology.freedom_type]}" if topology.freedom_type else ""
 
 
 def _sum(topology: Topology) -> str:

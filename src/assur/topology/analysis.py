@@ -21,6 +21,7 @@ from assur.topology.counting.coupling import Decomposition, coupling
 from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
+from assur.topology.counting.freedom_type import freedom_type
 from assur.topology.counting.mobility import Mobility, mobility, motions
 from assur.topology.counting.redundant_drives import DeterminingDrives, determining_drives, driven_by
 from assur.topology.counting.relaxation import relaxation
@@ -167,6 +168,7 @@ def analyse(
     decoupling = _decoupling(by_jacobian(home.collapsed, base, platform), chains, rules.platform, still=still)
     plan = _plan(order, determining, home, internal)
     solvable = not (plan.free or determining)
+    determined = solvable and sum(len(edge.inputs) for edge in home.collapsed) == collapsed.controlled
     modes = tuple(_mode_facts(linkage, values) for values in home.modes)
     return Topology(
         mode=mode,
@@ -181,6 +183,7 @@ def analyse(
         coupling_degree=order.coupling_degree if solvable else None,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
         redundant_by_loop=(*of_loops(order.loops), *of_parallelograms(home)),
+        freedom_type=freedom_type(home.collapsed, order.loops, order.assur_chains) if determined else None,
         inputs=input_names(home),
         inputs_by=inputs_by,
         decoupling=decoupling.decoupling,

@@ -35,6 +35,8 @@ def answers(topology: Topology) -> TopologyAnswer:
         mode=topology.mode,
         poc=PlatformPoc(**_poc(topology.poc), **_known(topology.known)),
         limbs=tuple(_limb(limb) for limb in topology.limbs),
+        motion_type=topology.motion_type,
+        freedom_type=topology.freedom_type,
         dof=topology.dof,
         internal_freedoms=topology.internal_freedoms,
         internal_joints=topology.internal_joints,

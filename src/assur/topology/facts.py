@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Literal
 
 from assur.results.plain_text import signed
 from assur.topology.counting.solution_plan import SolutionPlan
-from assur.topology.poc import PocSet
+from assur.topology.poc import PocSet, motion_name
 
 if TYPE_CHECKING:
     from assur.results.answers.topology import AssurChain, Loop, OperationModeFacts, RedundantConstraints, Relaxation
     from assur.topology.counting.actuation import Actuation
     from assur.topology.counting.decoupling import Decoupling
+    from assur.topology.counting.freedom_type import FreedomType
     from assur.topology.counting.redundant_drives import DeterminingDrives
     from assur.topology.screws.linkage import Linkage
     from assur.topology.symbolic.derivation import PocDerivation
@@ -72,6 +73,8 @@ class Topology:
         decoupling: None where the inputs do not determine the platform, or where the two routes differ on it.
         decoupling_refusal: why the theory does not confirm that pattern, or what each route says; empty where it does.
         determining: with redundant inputs the sets of them that determine the mechanism; else none.
+        freedom_type: whether the drives belong to one Assur chain, to several that hang together, or to separate parts;
+            None where they do not determine the mechanism.
         linkage: what the twists were computed on.
         modes: the operation modes that meet at home, where there are several; all facts are those of the first.
     """
@@ -95,6 +98,7 @@ class Topology:
     name: str = ""
     title: str = ""
     source: str = ""
+    freedom_type: FreedomType | None = None
     inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
     determining: tuple[DeterminingDrives, ...] = ()
@@ -113,6 +117,16 @@ class Topology:
     def poc(self) -> PocSet:
         """The platform's POC set at a general base point O'."""
         return self.known.poc
+
+    @property
+    def motion_type(self) -> str:
+        """Independent elements of the POC set, dim - r translations and r rotations."""
+        return motion_name(self.poc.dim, self.poc.r)
+
+    @property
+    def translating_type(self) -> str:
+        """The other reading, as many translations of a general point as are independent: a planar five-bar's is 2T."""
+        return motion_name(self.poc.dim, self.poc.dim - self.poc.t)
 
     @property
     def xi(self) -> tuple[int, ...]:

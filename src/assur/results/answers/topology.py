@@ -280,6 +280,7 @@ class RulesRefusal:
 class TopologyAnswer(Answer):
     """The facts of a topology; what does not exist is null.
 
+    `motion_type` counts independent elements, translations and rotations; `freedom_type` is full, partial or separable.
     `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
     was written, `latex` a fragment for a paper; `modes` are there where they are asked for.
     """
@@ -290,6 +291,8 @@ class TopologyAnswer(Answer):
     mode: str
     poc: PlatformPoc
     limbs: tuple[LimbAnswer, ...]
+    motion_type: str
+    freedom_type: str | None
     dof: int
     internal_freedoms: int
     internal_joints: tuple[Names, ...]
