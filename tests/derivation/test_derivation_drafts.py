@@ -113,6 +113,14 @@ def test_a_platform_that_slides_on_one_limb_and_is_jointed_to_the_other_is_prove
 
 
 @pytest.mark.deep
+def test_each_limb_beside_a_slider_on_the_platform_follows_its_direction(tmp_path):
+    chains = ["R[z] R[z] R[z]", "R[z] R[z] R[z]", "R[z] P[x]"]
+    solution = analytic_solution(draft_of(parse_chains(chains), tmp_path), "inverse")
+    assert solution.branches == 8
+    assert solution.closes()
+
+
+@pytest.mark.deep
 def test_the_vector_of_a_platform_that_slides_ends_at_the_point_that_the_pose_gives(tmp_path, capsys):
     record = draft_of(parse_chains(UNLIKE["a slider on the platform of a five-bar"]), tmp_path)
     assert main(["derive", str(record.file), "--problem", "inverse"]) == 0

@@ -84,7 +84,8 @@ class _Order:
     def _next(self, later: bool) -> tuple[tuple[UnknownDirection, ...], list[Form]]:
         chosen, equations = next_set(self.forms, self.left, self.witness, after=self._after)
         if later and not self.problem.loops.axes and not self.carriers and self._follow(equations):
-            apart = [own for own in (*self.every, *self._after) if own not in chosen]
+            turning = [vector.circle for vector in self.vectors]
+            apart = [own for own in (*self.every, *turning) if own not in chosen]
             if alone := equations_alone(self.problem.forms, chosen, apart, self.witness):
                 return chosen, alone
         if later and not self.problem.loops.axes and not self._plain(equations):
