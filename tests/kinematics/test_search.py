@@ -145,3 +145,10 @@ def test_misuse_is_refused():
         paper.direct(TABLE_1, mode="+-", method="search")
     with pytest.raises(UsageError, match="no closed form of the direct problem"):
         assur.load(DELTA).direct([0.0, 0.0, 0.0], method="closed form")
+
+
+@pytest.mark.deep
+def test_dietmaiers_forty_postures_are_met():
+    """One of them is nearly double: starts come to it along a curved valley, by steps that are hardly damped."""
+    lengths = np.array([1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071])
+    assert len(search(assur.load("gough_stewart"), "direct", lengths).joints) == 40

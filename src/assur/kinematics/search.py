@@ -34,13 +34,16 @@ STARTS = 192
 """Starts that are closed together at most: of fewer the last that close keep arrays short, more are seldom needed."""
 FEWEST = 12
 """As few starts may be closed together at the end of a search."""
-MOST = 16 * STARTS
+MOST, UTMOST = 16 * STARTS, 32 * STARTS
+"""Starts at most; and where an assembly was met once alone, so that there may be others as rare."""
+STEPS = 240
+"""Of a start: where two roots nearly meet many steps lead along a curved valley. Elsewhere few take more than 30."""
 WAY = 16
 """Starts on the way from home, where turns count."""
 AGAIN, LEAST = 24, 4
-"""A search ends when so many assemblies in a row, for each that is known, were known already; for so many at least; or
-after MOST starts. One start by chance in 8000 leads to the rarest assembly of the Delta robot's inverse problem: 16
-times 40 that close missed it, 24 times do not."""
+"""A search ends when so many assemblies in a row, for each that is known, were known already; for so many at least; and
+each was met twice; or after MOST starts. One start by chance in 8000 leads to the rarest assembly of the Delta robot's
+inverse problem: 16 times 40 that close missed it, 24 times do not."""
 
 SAME = 1e-5
 """Assemblies whose joints are all nearer than this share of the characteristic length are one."""
@@ -70,8 +73,8 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     Once some are known, a third of the starts are still by chance; in a third joints of a known assembly are drawn
     anew, in a third they stand as in another (`assur.kinematics.starts`). Where turns count, starts and assemblies have
     as many as motions from home (`assur.kinematics.turns`), and some starts lie on the way from home to what is asked
-    for. The search ends when it has met what it knows `AGAIN` times as often as it has met anything new, or after
-    `MOST` starts. Ctrl-C ends it with `Interrupted`, whose answer is the search so far.
+    for. The search ends when it has met what it knows `AGAIN` times as often as it has met anything new, and everything
+    twice, or after `MOST` starts. Ctrl-C ends it with `Interrupted`, whose answer is the search so far.
 
     >>> from assur.model.registry import load_record
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
@@ -85,9 +88,9 @@ def _searched(
     record: MechanismRecord, problem: Problem, given: FloatArray, rng: np.random.Generator, work: WorkStage
 ) -> Search:
     known = np.empty((0, len(record.coordinates)))
-    starts, converged, last, nearest, again = 0, 0, 0, np.inf, 0
-    while starts < MOST and again < _enough(known):
-        begun = _starts(record, known, rng, min(STARTS, _needed(known, again, starts, converged)))
+    starts, converged, last, nearest, again, met = 0, 0, 0, np.inf, 0, np.zeros(0, dtype=int)
+    while (starts < MOST and again < _enough(known)) or (starts < UTMOST and np.any(met == 1)):
+        begun = _starts(record, known, rng, min(STARTS, max(FEWEST, _needed(known, again, starts, converged))))
         try:
             if starts == 0:
                 begun[0] = home_values(record)
@@ -101,14 +104,16 @@ def _searched(
         counted, same = with_turns_of_home(record, assembled.values, _held(record, problem))
         closed = np.flatnonzero(assembled.closed & same)
         joints = np.concatenate([known, counted[closed]])
-        kept = distinct(record, joints)
+        number = numbered(record, joints)
+        kept = np.unique(number, return_index=True)[1]
+        met = np.bincount(number[len(known) :], minlength=len(kept)) + np.pad(met, (0, len(kept) - len(met)))
         again, converged = again + len(closed), converged + len(closed)
         if len(kept) > len(known):
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
         known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + len(begun)
         work.at(starts, MOST, f"{len(known)} assemblies so far")
-    return Search(known, starts, converged, last, nearest, again >= _enough(known))
+    return Search(known, starts, converged, last, nearest, again >= _enough(known) and not np.any(met == 1))
 
 
 def _enough(known: FloatArray) -> int:
@@ -137,9 +142,13 @@ def _assembled(record: MechanismRecord, problem: Problem, given: FloatArray, sta
     held = _held(record, problem)
     if problem == "direct":
         return assemble(
-            record, near_turns_of_home(record, held_inputs(record, start, given), held), held=held, far=True
+            record,
+            near_turns_of_home(record, held_inputs(record, start, given), held),
+            held=held,
+            max_steps=STEPS,
+            far=True,
         )
-    return assemble(record, near_turns_of_home(record, start, held), poses=given, far=True)
+    return assemble(record, near_turns_of_home(record, start, held), poses=given, max_steps=STEPS, far=True)
 
 
 def _held(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
@@ -162,23 +171,31 @@ def _on_the_way(record: MechanismRecord, problem: Problem, given: FloatArray) ->
 
 
 def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
-    """Indices of the first of each group of joint values (N, coordinates) that are one configuration.
+    """Indices of the first of each group of joint values (N, coordinates) that are one configuration."""
+    return np.unique(numbered(record, joints), return_index=True)[1]
+
+
+def numbered(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
+    """Which configuration (N,) each of joint values (N, coordinates) is, from 0 on in the order in which they are met.
 
     Configurations are told apart by where the joints and the platform are, and by their inputs; a rod that spins about
     its ball joints does not make another one.
     """
     where = places(record, joints)
+    number = np.zeros(len(where), dtype=np.intp)
     if not len(where):
-        return np.zeros(0, dtype=np.intp)
+        return number
     widest = where[:, np.argmax(np.ptp(where, axis=0))]  # tells most of them apart alone
-    kept, count = np.zeros(len(where), dtype=np.intp), 0
+    firsts, count = np.zeros(len(where), dtype=np.intp), 0
     for k, place in enumerate(where):
-        first = kept[:count]
-        near = where[first[~(np.abs(widest[first] - widest[k]) > SAME)]]
-        if not len(near) or np.min(np.max(np.abs(near - place), axis=-1)) > SAME:
-            kept[count] = k
+        near = np.flatnonzero(~(np.abs(widest[firsts[:count]] - widest[k]) > SAME))
+        gaps = np.max(np.abs(where[firsts[near]] - place), axis=-1)
+        alike = near[gaps <= SAME]
+        number[k] = alike[0] if len(alike) else count
+        if not len(alike):
+            firsts[count] = k
             count += 1
-    return kept[:count]
+    return number
 
 
 def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:

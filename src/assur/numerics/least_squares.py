@@ -92,7 +92,7 @@ def minimise(
         jacobian[accepted], error[accepted] = new_jacobian[better], new_error[better]
         lowered = np.maximum(LOWERED, 1.0 - (2.0 * ratio[better] - 1.0) ** 3)
         damped[accepted] = np.maximum(damped[accepted] * lowered, 1e-15)
-        damped[refused] = np.minimum(np.maximum(damped[refused], 1e-9) * raised[refused], 1e8)
+        damped[refused] = np.minimum(np.maximum(damped[refused], 1e-12) * raised[refused], 1e8)
         raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
         if np.all(damped[active] >= 1e8):
             break

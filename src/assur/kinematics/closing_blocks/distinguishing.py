@@ -28,14 +28,14 @@ from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
-from assur.kinematics.search import SAME, places
+from assur.kinematics.search import numbered
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.modulo_two import independent
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int_]
+IntArray = NDArray[np.intp]
 SignArray = NDArray[np.int8]
 PROBLEMS, STARTS, AT_ONCE = 3, 160, 48
 """Problems whose solutions are to be told apart, home's first, and starts by chance for each, at most and at once."""
@@ -134,7 +134,7 @@ class _Solutions:
     @classmethod
     def of(cls, record: MechanismRecord, values: FloatArray, known: Sequence[Factor]) -> _Solutions:
         """Those that assemblies (N, n) are."""
-        solution = _numbered(record, values)
+        solution = numbered(record, values)
         signs = factor_signs(known, ScrewColumns(record, values))
         regular = np.all(signs != 0, axis=1)
         return cls(values[regular], solution[regular], signs[regular])
@@ -145,21 +145,6 @@ class _Solutions:
         first = np.unique(self.solution, return_index=True)[1]
         same = np.searchsorted(self.solution[first], self.solution)
         return np.unique(self.signs != self.signs[first][same], axis=0)
-
-
-def _numbered(record: MechanismRecord, values: FloatArray) -> IntArray:
-    """Which solution (N,) each assembly is, from 0 on, by where all joints and the platform are."""
-    where = places(record, values)
-    solution = np.zeros(len(values), dtype=int)
-    firsts: list[int] = []
-    for row, place in enumerate(where):
-        apart = np.max(np.abs(where[firsts] - place), axis=1) if firsts else np.zeros(0)
-        if not len(apart) or np.min(apart) > SAME:
-            firsts.append(row)
-            solution[row] = len(firsts) - 1
-        else:
-            solution[row] = int(np.argmin(apart))
-    return solution
 
 
 def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
@@ -209,7 +194,7 @@ def _solving(
     if len(limbs) > 1 and len(values) >= STARTS // 4:
         return _exchanged(values, limbs, rng)
     for _ in range(AT_ONCE, STARTS, AT_ONCE):
-        if len(values) >= max(STARTS // 4, MET * (1 + int(np.max(_numbered(record, values), initial=0)))):
+        if len(values) >= max(STARTS // 4, MET * (1 + int(np.max(numbered(record, values), initial=0)))):
             return values
         values = np.concatenate([values, (yield by_chance(record, AT_ONCE, rng))])
     for _ in range(ROUNDS):
