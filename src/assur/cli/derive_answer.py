@@ -238,7 +238,7 @@ def _factors(record: Mechanism) -> Iterator[DerivedFactor]:
     formulas, meanings = ClosedFormFormulas(inverse, inverse, {}), FactorMeanings(inverse)
     with contextlib.suppress(NotDerivedError):
         for name, kind, value in formulas.factors:
-            yield DerivedFactor(name, kind, str(value), meanings.of(value, kind).text)
+            yield DerivedFactor(name, kind, str(value), meanings.of(value, kind, shared=formulas.is_shared(value)).text)
         for name, value in coplanar_couples(inverse).items():
             yield DerivedFactor(name, "constraint", str(value), COPLANAR)
 

@@ -288,6 +288,12 @@ class ClosedFormFormulas:
             own += [(f"{letter}{k}", kind, value) for k, value in enumerate(varying, start=1)]
         return own
 
+    def is_shared(self, value: sympy.Expr) -> bool:
+        """Whether both determinants have a factor, but for dimensions."""
+        parameters = {*self.inverse.symbols.parameters.values()}
+        alike = {kind for _, kind, own in self.factors if not sympy.cancel(own / value).free_symbols - parameters}
+        return len(alike) > 1
+
     def unit(self, value: sympy.Expr) -> int:
         """Power of the length unit."""
         return self._sizes.unit(value)

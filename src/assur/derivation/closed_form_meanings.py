@@ -79,7 +79,7 @@ class ClosedFormMeanings:
             if self.self_motion.centres:
                 return phrase("a component of the distance of two spheres' centres")
             return self.reach["direct"].condition(self.self_motion.part, self.self_motion.condition)
-        return self._factors.of(value, kind)
+        return self._factors.of(value, kind, shared=self.formulas.is_shared(value))
 
     @cached_property
     def self_motion(self) -> CoincidenceMotion | None:

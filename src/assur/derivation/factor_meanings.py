@@ -38,6 +38,7 @@ FIRST = {
     "parallel": "the platform can move at first order while every input stands",
     "serial": "an input can move at first order while the platform stands",
 }
+SHARED = "both determinants vanish, and the velocity equations say too little"
 BASE: tuple[Vector, ...] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
@@ -47,8 +48,8 @@ class FactorMeanings:
 
     solution: AnalyticSolution
 
-    def of(self, factor: sympy.Expr, kind: str) -> GeometricPhrase:
-        """What it means that a factor vanishes.
+    def of(self, factor: sympy.Expr, kind: str, *, shared: bool = False) -> GeometricPhrase:
+        """What it means that a factor vanishes, which both determinants may have.
 
         >>> from assur.derivation.solution import analytic_solution
         >>> from assur.model.registry import load_record
@@ -71,7 +72,7 @@ class FactorMeanings:
         for candidate, meaning in self._candidates:
             if self._alike(values, candidate):
                 return meaning
-        return phrase(FIRST[kind])
+        return phrase(SHARED if shared else FIRST[kind])
 
     def proportional(self, first: sympy.Expr, second: sympy.Expr) -> bool:
         """Whether two formulas differ by a formula of dimensions alone, on all that closes the loops."""

@@ -95,7 +95,7 @@ class _Velocities:
     def factors(self) -> Iterator[PrintedFactor]:
         said = FactorMeanings(self.written.solution)
         for _, kind, value in self.formulas.factors:
-            meaning = said.of(value, kind)
+            meaning = said.of(value, kind, shared=self.formulas.is_shared(value))
             if meaning.text == "it never vanishes":
                 continue
             text = self.written.writer.text(-value if self._negative(value) else value)

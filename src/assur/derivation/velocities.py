@@ -150,21 +150,25 @@ class _Velocities:
         Of a and b, whose sum l a + m b has the factor, that sum without it and l b - m a take the place: these say the
         same but where l and m vanish together.
         """
-        for i, j in combinations(range(len(rows)), 2):
-            for key in rows[i].keys() & rows[j].keys():
-                first, second = primitive([rows[j][key], -rows[i][key]])
-                if {first, second} & shared:
-                    continue
-                total = self._sum(rows[i], first, rows[j], second)
-                if any(self.witness.is_zero(part) for part in total.values()) or not total:
-                    continue
-                plain = divided(total)
-                own = next(iter(total))
-                factor, _ = sympy.fraction(tidy(total[own] / plain[own]))
-                if not {part for part, _ in sympy.factor_list(factor)[1]} & shared:
-                    continue
-                across = divided(self._sum(rows[j], first, rows[i], -second))
-                return [plain if k == i else across if k == j else row for k, row in enumerate(rows)]
+        shares = [
+            (i, j, *primitive([rows[j][key], -rows[i][key]]))
+            for i, j in combinations(range(len(rows)), 2)
+            for key in rows[i]
+            if key in rows[j]
+        ]
+        for i, j, first, second in sorted(shares, key=lambda own: sympy.count_ops(own[2:])):
+            if {first, second} & shared:
+                continue
+            total = self._sum(rows[i], first, rows[j], second)
+            if any(self.witness.is_zero(part) for part in total.values()) or not total:
+                continue
+            plain = divided(total)
+            own = next(iter(total))
+            factor, _ = sympy.fraction(tidy(total[own] / plain[own]))
+            if not {part for part, _ in sympy.factor_list(factor)[1]} & shared:
+                continue
+            across = divided(self._sum(rows[j], first, rows[i], -second))
+            return [plain if k == i else across if k == j else row for k, row in enumerate(rows)]
         return None
 
     def _sum(self, first: Form, share: sympy.Expr, second: Form, other: sympy.Expr) -> Form:
