@@ -126,6 +126,9 @@ def test_a_cosine_of_a_number_is_no_part_of_a_closed_form(assur_cli, tmp_path):
     file = tmp_path / "my.toml"
     chains = ("P[z] P(4S)[y]", "P[z] P(4S)[-0.866,-0.5,0]", "P[1,0,2] P(4S)[0.866,-0.5,0]")
     assur_cli("new", str(file), *(word for chain in chains for word in ("--chain", chain)))
+    drafted = file.read_text()
+    file.write_text(drafted.replace('angles = [0, "gammaa2"]', "angles = [0, 119.999272]"))
+    assert file.read_text() != drafted
     answer = assur_cli("derive", str(file), "-o", str(tmp_path / "closed_form.py"))
     assert answer.code == 5
     assert "angle among the parameters" in answer.out + answer.err

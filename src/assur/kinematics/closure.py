@@ -49,6 +49,10 @@ FAR_DAMPING = 0.1
 """That from a start by chance. With a hundredth of it half of the starts run into valleys without a root; with ten
 times as much they close no more often, only later."""
 
+FAR_LEAST = 1e-12
+"""Damping after a step that failed, of a start by chance: so it comes to a root that is nearly double. A start beside
+an assembly must not: where that moves at first order alone it would run along this motion until the loops close."""
+
 RANK_GAP = 1e-8
 """Singular values below this share of the largest count as zero."""
 
@@ -282,6 +286,7 @@ def assemble(
                 max_steps=max_steps,
                 enough=enough,
                 damping=damping,
+                least=FAR_LEAST if far else least_squares.LEAST,
                 same=unwound if far else None,
             )
             values[np.ix_(block, free)] = nearest.x * scale

@@ -18,6 +18,10 @@ IndexArray = NDArray[np.intp]
 DAMPING = 1e-3
 """Damping of the first step from any start."""
 
+LEAST = 1e-9
+"""Damping after a step that made things worse, at least: then it is felt. Towards a root that is nearly double, one
+singular value of which is smaller than the root of this, steps are far too short."""
+
 LOWERED, RAISED = 0.03, 2.0
 """After a step that did as well as its linear model said damping falls to this share; after one that made things worse
 it rises by this factor, twice as much each time in a row (Nielsen 1999, Damping parameter in Marquardt's method)."""
@@ -46,6 +50,7 @@ def minimise(
     enough: float = 1.0,
     max_change: float = np.inf,
     damping: float = DAMPING,
+    least: float = LEAST,
     same: Callable[[FloatArray], FloatArray] | None = None,
 ) -> LeastSquaresResult:
     """Drive the residuals of a batch of systems to zero, from (N, n) starts.
@@ -54,7 +59,8 @@ def minimise(
     numbers, at x (k, n). A problem has converged when every residual is at most `tolerance`; one that has
     not is reported as it stands, never dropped. With `enough` below 1 no more steps are made once this share
     has converged: of starts by chance the last few take most of them. `damping` is that of the first step, as
-    a share of the mean square of the Jacobian's columns: small where the start is known to be near. `same(x)`
+    a share of the mean square of the Jacobian's columns: small where the start is known to be near. It is `least` or
+    more after a step that failed. `same(x)`
     may say (k, n) better unknowns for the same thing.
 
     Example: the root of x^2 = 2.
@@ -92,7 +98,7 @@ def minimise(
         jacobian[accepted], error[accepted] = new_jacobian[better], new_error[better]
         lowered = np.maximum(LOWERED, 1.0 - (2.0 * ratio[better] - 1.0) ** 3)
         damped[accepted] = np.maximum(damped[accepted] * lowered, 1e-15)
-        damped[refused] = np.minimum(np.maximum(damped[refused], 1e-12) * raised[refused], 1e8)
+        damped[refused] = np.minimum(np.maximum(damped[refused], least) * raised[refused], 1e8)
         raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
         if np.all(damped[active] >= 1e8):
             break
