@@ -193,15 +193,15 @@ def _inside(record: Mechanism, answer: ForcesAnswer) -> NDArray[Any]:
 
 def _actuators(record: Mechanism, answer: ForcesAnswer) -> Iterable[RenderableType]:
     labels = [record.coordinate_label(item.coordinate) for item in record.drives]
-    limits = [record.machine.actuators.get(label) for label in labels]
+    known = [record.machine.actuators.get(label) for label in labels]
     rows = []
-    for place, (name, unit) in enumerate(zip(answer.input_names, force_units(record), strict=True)):
+    for place, (name, unit, actuator) in enumerate(zip(answer.input_names, force_units(record), known, strict=True)):
         moving, force = answer.input_rates[place], answer.actuator_forces[place]
         friction = answer.friction[place] if moving else answer.friction_band[place]
-        limit = limits[place].force if limits[place] else None  # type: ignore[union-attr]
+        limit = actuator.force if actuator else None
         borne = abs((force or 0.0) + (friction or 0.0) * bool(moving))
         share = f"{borne / limit:.0%}" if limit else "-"
-        told = f"{'' if moving else '±'}{short(friction)}" if limits[place] else "-"
+        told = f"{'' if moving else '±'}{short(friction)}" if actuator else "-"
         rows.append((name, short(force), unit, told, short(moving), "m/s" if unit == "N" else "rad/s", share))
     columns = ("actuator", "force", "in", "friction", "rate", "per", "of its limit")
     yield table(columns, rows, left=("actuator", "in", "per"))

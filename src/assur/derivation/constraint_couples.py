@@ -15,7 +15,7 @@ import sympy
 from assur.derivation.hinges import point_on, rods_of
 from assur.derivation.link_lines import LinkLines
 from assur.derivation.solution import AnalyticSolution
-from assur.model.mechanism import GeneralisedJoint
+from assur.model.mechanism import GeneralisedJoint, Joint
 from assur.numerics.vectors import Vector, apply, cross, subtract, triple
 
 COPLANAR = "the couples that the parallelograms bear are parallel to one plane"
@@ -51,37 +51,27 @@ def _couples(solution: AnalyticSolution) -> Iterator[Vector]:
         groups = [record.generalised[name] for name in limb.serial if name in record.generalised]
         if limb.loop or len(groups) != 1 or groups[0].kind != "P(4S)":
             continue
-        side = _short_side(solution, groups[0])
-        turning = [name for name in limb.serial if name in record.joints and record.joints[name].type.turning]
-        if side is None or not all(_about(solution, name, side) for name in turning):
+        side = _short_side(lines, groups[0])
+        turning = [record.joints[name] for name in limb.serial if name in record.joints]
+        if side is None or not all(_about(lines, joint, side) for joint in turning if joint.type.turning):
             continue
         rod = next(own for own in solution.loops.directions if {*rods_of(record, groups[0])} & {*own.links})
         if (line := lines.of(rod)) is not None:
             yield cross(side, line.vector)
 
 
-def _short_side(solution: AnalyticSolution, group: GeneralisedJoint) -> Vector | None:
+def _short_side(lines: LinkLines, group: GeneralisedJoint) -> Vector | None:
     """From one rod to the other, in the base's frame; None where what they hang on turns it."""
-    symbols, record = solution.symbols, solution.symbols.record
-    parent = solution.placed.links[group.parent]
-    near = [record.joints[name] for name in group.joints if group.parent in _links(solution, name)]
-    first, second = (point_on(symbols, joint, group.parent) for joint in near)
-    lines = LinkLines(symbols, solution.placed, solution.loops)
+    joints, parent = lines.symbols.record.joints, lines.placed.links[group.parent]
+    near = [joints[name] for name in group.joints if group.parent in (joints[name].parent, joints[name].child)]
+    first, second = (point_on(lines.symbols, joint, group.parent) for joint in near)
     side = lines.exact.unit(apply(parent.constant, subtract(second, first)))
     if parent.rod is not None or parent.hinge is not None:
         return None
     return side if parent.axis is None or lines.exact.along(parent.axis, side) else None
 
 
-def _links(solution: AnalyticSolution, name: str) -> tuple[str, str]:
-    joint = solution.symbols.record.joints[name]
-    return joint.parent, joint.child
-
-
-def _about(solution: AnalyticSolution, name: str, side: Vector) -> bool:
+def _about(lines: LinkLines, joint: Joint, side: Vector) -> bool:
     """Whether a joint turns about one direction alone, that of the short sides."""
-    joint = solution.symbols.record.joints[name]
-    parent = solution.placed.links[joint.parent]
-    own = solution.symbols.geometry.joints[name]
-    lines = LinkLines(solution.symbols, solution.placed, solution.loops)
-    return joint.type.turns == 1 and all(lines.exact.along(apply(parent.constant, axis), side) for axis in own.axes)
+    parent, axes = lines.placed.links[joint.parent], lines.symbols.geometry.joints[joint.name].axes
+    return joint.type.turns == 1 and all(lines.exact.along(apply(parent.constant, axis), side) for axis in axes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from assur.model.file import schema
 from assur.model.file.build_joints import JointVectors
@@ -12,7 +12,8 @@ from assur.model.file.faults import Faults
 from assur.model.file.key_path import KeyPath
 from assur.model.machine_data import Material, Profile
 
-KINDS = ("round", "tube", "box")
+Kind = Literal["round", "tube", "box"]
+KINDS: tuple[Kind, ...] = ("round", "tube", "box")
 MOMENTS = ("A", "Iy", "Iz", "J")
 SHEAR = ("Ay", "Az")
 
@@ -24,6 +25,14 @@ class _Moments(NamedTuple):
     iy: float
     iz: float
     torsion: float
+
+
+class _Section(NamedTuple):
+    """How a cross-section is given, its sizes and its moments."""
+
+    kind: Kind | Literal["moments"]
+    sizes: tuple[float, ...]
+    moments: _Moments
 
 
 def build_materials(entries: Mapping[str, schema.MaterialEntry], faults: Faults) -> dict[str, Material]:
@@ -51,7 +60,7 @@ def build_profiles(
         up = None if entry.up is None else geometry.axis(entry.up, (*path, "up"))
         sound = _sized(entry, kinds[0], path, faults) if kinds else _given(entry, path, faults)
         if sound is not None:
-            profiles[name] = Profile(name, *sound, entry.Ay, entry.Az, up)  # type: ignore[arg-type]
+            profiles[name] = Profile(name, sound.kind, sound.sizes, *sound.moments, entry.Ay, entry.Az, up)
     return profiles
 
 
@@ -63,9 +72,7 @@ def check_positive(value: float | None, path: KeyPath, faults: Faults, *, zero: 
     return sound
 
 
-def _sized(
-    entry: schema.ProfileEntry, kind: str, path: KeyPath, faults: Faults
-) -> tuple[str, tuple[float, ...], float, float, float, float] | None:
+def _sized(entry: schema.ProfileEntry, kind: Kind, path: KeyPath, faults: Faults) -> _Section | None:
     value = getattr(entry, kind)
     sizes = value if isinstance(value, tuple) else (value,)
     hollow = kind == "tube"
@@ -78,12 +85,10 @@ def _sized(
     if not all(sound):
         return None
     moments = _rectangle(*sizes) if kind == "box" else _ring(sizes[0], sizes[1] if hollow else 0.0)
-    return kind, sizes, *moments
+    return _Section(kind, sizes, moments)
 
 
-def _given(
-    entry: schema.ProfileEntry, path: KeyPath, faults: Faults
-) -> tuple[str, tuple[float, ...], float, float, float, float] | None:
+def _given(entry: schema.ProfileEntry, path: KeyPath, faults: Faults) -> _Section | None:
     lacking = [key for key in MOMENTS if getattr(entry, key) is None]
     if lacking:
         faults.add(path, f"lacks {', '.join(lacking)}", f"allowed: {', '.join(MOMENTS)} together")
@@ -92,7 +97,8 @@ def _given(
     sound = [check_positive(getattr(entry, key), (*path, key), faults) for key in keys]
     if not all(sound):
         return None
-    return "moments", (), *(float(getattr(entry, key)) for key in MOMENTS)  # type: ignore[return-value]
+    area, iy, iz, torsion = (float(getattr(entry, key)) for key in MOMENTS)
+    return _Section("moments", (), _Moments(area, iy, iz, torsion))
 
 
 def _ring(outer: float, inner: float) -> _Moments:
