@@ -26,6 +26,7 @@ from assur.topology.notation import parse_chains
 from assur.topology.routes import told_point
 from assur.topology.screws.assembled import assembled_at
 from assur.topology.screws.configurations import ImmobileError
+from assur.topology.screws.limb_linkage import seen_at_end
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.placing import place
 from assur.topology.screws.recognition import recognised
@@ -202,6 +203,8 @@ def _of_chains(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     limbs = chains if all(chain.is_limb for chain in chains) else None
     at = told_point(limbs, held=mode == "translation") if limbs else ""
     placed = [place(chains, seed=seed, actuated=names, at=at) for seed in range(PLACINGS)]
+    if limbs is None:  # a graph may be one limb
+        placed = [seen_at_end(built, recognised(built)) for built in placed]
     for seed, built in enumerate(placed):
         try:
             found = analyse(built, limbs, mode=mode, inputs_by=inputs_by)

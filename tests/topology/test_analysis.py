@@ -1,5 +1,6 @@
 """The whole topology of a linkage: both routes, modes, and linkages that POC theory does not represent."""
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -178,3 +179,11 @@ def test_declared_facts_that_are_wrong_are_said(tmp_path):
     assert assur.topology(file).notes == ()
     file.write_text(text % 4, encoding="utf-8")
     assert assur.topology(file).notes == ("declared dof = 4, computed 2",)
+
+
+@pytest.mark.parametrize("text", ["R[z] R[x]", "P[x] S", "R[z] {R[z] R[z] | R[z] R[z]} R[x]"])
+def test_a_limb_alone_is_seen_wherever_its_linkage_says(text):
+    placed = place(parse_chains([text]))
+    at_end, beside = (analyse(replace(placed, point=placed.point + away)) for away in (np.zeros(3), np.ones(3)))
+    assert (at_end.known.route, beside.known.route) == ("both", "both")
+    assert beside.poc.t == at_end.poc.t + 1 + (text == "P[x] S")

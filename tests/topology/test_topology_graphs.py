@@ -19,6 +19,19 @@ def test_a_graph_that_has_limbs_is_that_of_its_limbs():
     assert graph.known.route == "both"
 
 
+@pytest.mark.parametrize(
+    ("graph", "limb"),
+    [
+        (["R[z] <a>", "<a> R[x] <platform>"], "R[z] R[x]"),
+        (["R[z] <a>", "<a> R[x]@A R[y]@A <b>", "<b> R[z]@A <platform>"], "R[z] R[x]@A R[y]@A R[z]@A"),
+        (["R[z] <a>", *["<a> R[z] R[z] <b>"] * 2, "<b> R[x] <platform>"], "R[z] {R[z] R[z] | R[z] R[z]} R[x]"),
+    ],
+)
+def test_a_graph_that_is_one_limb_is_seen_where_that_limb_is(graph, limb):
+    by_graph, by_limb = topology(graph), topology(limb)
+    assert (str(by_graph.poc), by_graph.dof, by_graph.known.route) == (str(by_limb.poc), by_limb.dof, "both")
+
+
 @pytest.mark.parametrize(("driven", "kappa"), [("1.1", 0), ("4.1", 1)])
 def test_a_stephenson_six_bar_by_its_drive(driven, kappa):
     """Driven in its four-bar it is two dyads, driven in the outer loop a triad."""

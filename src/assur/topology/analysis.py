@@ -32,6 +32,7 @@ from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
 from assur.topology.screws.configurations import Hold, home_is_special
 from assur.topology.screws.edges import Edge, closure, rank
+from assur.topology.screws.limb_linkage import is_seen_at_end
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.modes import OperationMode, operation_modes
 from assur.topology.screws.recognition import recognised
@@ -156,7 +157,8 @@ def analyse(
         )
     still, held = home.keeps_orientation, mode == "translation"
     at = point_of_platform(linkage, chains or ())
-    rules = by_rules(chains, still=still, held=held, at=at)
+    at_end = len(chains or ()) == 1 and is_seen_at_end(linkage, *(chains or ()))
+    rules = by_rules(chains, still=still, held=held, at=at, at_end=at_end)
     limbs = known_limbs(home, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
     internal = motions(home.collapsed, base, platform).internal

@@ -48,7 +48,7 @@ class Rules:
         return tuple(motion.derive() for motion in whole if isinstance(motion, Motion) and motion.derive is not None)
 
 
-def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str = "") -> Rules:
+def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str = "", at_end: bool = True) -> Rules:
     """The rules' answers.
 
     Args:
@@ -56,11 +56,12 @@ def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str
         still: whether the platform does not turn, so that limbs are in translation mode.
         held: whether this is because it was asked for, and not by the mechanism's own making.
         at: label of the common end of the limbs where O' is; empty for a general point of the platform.
+        at_end: of one limb alone, whether O' is where its own entry has it.
     """
     if chains is None:
         return Rules((), (), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
     free = tuple(_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1))
-    platform = _platform(free, "translation" if held else "free", at)
+    platform = _platform(free, "translation" if held else "free", at, at_end=at_end)
     if still and not held:
         return Rules(free, tuple(_motion(chain, "translation", n) for n, chain in enumerate(chains, 1)), platform)
     taken = platform.orientations if isinstance(platform, Motion) and len(chains) > 1 and not held else EVERY
@@ -80,12 +81,12 @@ def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:
     return serial(chain, mode, name=f"limb {number}")
 
 
-def _platform(limbs: Sequence[Motion | Refusal], mode: Mode, at: str) -> Motion | Refusal:
+def _platform(limbs: Sequence[Motion | Refusal], mode: Mode, at: str, *, at_end: bool) -> Motion | Refusal:
     motions = [limb for limb in limbs if isinstance(limb, Motion)]
     for number, limb in enumerate(limbs, 1):
         if isinstance(limb, Refusal):
             return Refusal(f"limb {number}: {limb.reason}")
-    return motions[0] if len(motions) == 1 else parallel(motions, mode, at=at)
+    return motions[0] if len(motions) == 1 and at_end else parallel(motions, mode, at=at)
 
 
 def told_point(chains: Sequence[Chain], *, held: bool) -> str:

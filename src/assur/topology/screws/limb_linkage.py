@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
 from assur.topology.screws.linkage import Linkage, part
-from assur.topology.screws.shared_points import end_point
+from assur.topology.screws.shared_points import SAME, end_point, size_of
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +23,19 @@ def limb_linkage(linkage: Linkage, chain: Chain) -> Linkage:
     tip = end_point(linkage, chain)
     tip = _tip(linkage, chain.elements) if tip is None else tip
     return part(linkage, [joint.name for joint in chain.joints], linkage.platform, tip)
+
+
+def is_seen_at_end(linkage: Linkage, chain: Chain) -> bool:
+    """Whether O' of a linkage is where the entry of this limb has it."""
+    away = linkage.point - limb_linkage(linkage, chain).point
+    return bool(np.max(np.abs(away)) < SAME * size_of(linkage))
+
+
+def seen_at_end(linkage: Linkage, chains: Sequence[Chain] | None) -> Linkage:
+    """A graph that is one limb, with O' where the entry of that limb has it; any other as it is."""
+    if chains is None or len(chains) != 1:
+        return linkage
+    return replace(linkage, point=limb_linkage(linkage, chains[0]).point)
 
 
 def limb_values(linkage: Linkage, limb: Linkage, values: FloatArray) -> FloatArray:
