@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
     from assur.machine.forces import ActuatorForces
+    from assur.machine.stiffness import Stiffness
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
     from assur.singularity.verdict import Verdict
@@ -105,6 +106,12 @@ class Mechanism(MechanismRecord):
         from assur.machine.forces import forces
 
         return forces(self, poses, velocity, acceleration, load, gravity=gravity, mode=mode)
+
+    def stiffness(self, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:
+        """How the platform gives way at poses (..., m): see `assur.machine.stiffness.stiffness`."""
+        from assur.machine.stiffness import stiffness
+
+        return stiffness(self, poses, mode, shear=shear)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""

@@ -17,6 +17,7 @@ COMMANDS = (
         "indices",
         "synthesize",
         "forces",
+        "stiffness",
     ),
     *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),
 )

@@ -39,6 +39,7 @@ from assur.results.answers.region import (
     WorkspaceAnswer,
 )
 from assur.results.answers.singularity import ConfigurationAnswer, SingularityAnswer
+from assur.results.answers.stiffness import StiffnessAnswer
 from assur.results.answers.sweep import SweepAnswer
 from assur.results.answers.topology import ExplanationAnswer, SynthesisAnswer, TopologyAnswer
 
@@ -68,6 +69,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "schema": (SchemaAnswer,),
     "show": (MechanismAnswer, MassesAnswer),
     "singularity": (ConfigurationAnswer, SingularityAnswer),
+    "stiffness": (StiffnessAnswer,),
     "sweep": (SweepAnswer,),
     "synthesize": (SynthesisAnswer, ExplanationAnswer),
     "topology": (TopologyAnswer,),

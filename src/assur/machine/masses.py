@@ -120,7 +120,7 @@ def all_masses(record: MechanismRecord) -> Masses:
 
 
 def _body(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
-    if data.mass is not None and (data.profile is None or data.centre is not None or data.inertia is not None):
+    if data.mass is not None and not _of_bars_alone(data):
         metre = METRES[record.unit]
         return _given(data, (np.zeros(3) if data.centre is None else data.centre) * metre, "origin")
     if data.profile is None and data.kg_per_m is None:
@@ -129,6 +129,13 @@ def _body(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
             hint="give it a profile, kg_per_m or a mass",
         )
     return _of_bars(record, link, data)
+
+
+def _of_bars_alone(data: LinkData) -> bool:
+    """Whether a link weighs as its bars do: no body is stated in their place."""
+    if data.mass is None:
+        return data.profile is not None or data.kg_per_m is not None
+    return data.profile is not None and data.centre is None and data.inertia is None
 
 
 def _given(data: LinkData, centre: FloatArray, place: str) -> RigidBody:
@@ -141,14 +148,8 @@ def _given(data: LinkData, centre: FloatArray, place: str) -> RigidBody:
 
 def _of_bars(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
     """Uniform bars: slender, but for what the section turns with about the bar's own axis."""
-    metre = METRES[record.unit]
-    bars = link_bars(record, link)
-    length = metre * sum(bar.length for bar in bars)
-    if length == 0.0:
-        raise UsageError(f"link {link} of {record.name}: its bars have no length", hint="give it a mass")
-    profile = record.machine.profiles[data.profile] if data.profile else None
-    per_metre, source = _weight(record, link, data, profile, length)
-    polar = profile.polar / profile.area if profile else 0.0
+    metre, bars = METRES[record.unit], link_bars(record, link)
+    per_metre, polar, source = _bar_weights(record, link, data)
     mass, moment, second = 0.0, np.zeros(3), np.zeros((3, 3))
     for bar in bars:
         ends = metre * bar.ends
@@ -160,6 +161,30 @@ def _of_bars(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
         second += own * (_spread(along) / 12.0 + polar * np.outer(axis, axis) + _spread(middle))
     centre = moment / mass
     return RigidBody(mass, centre, second - mass * _spread(centre), source)
+
+
+def bar_weights(record: MechanismRecord, link: str) -> tuple[float, float] | None:
+    """Kilograms of a metre of a link's bars, and kg m2 of it about their own axis; None where they do not weigh.
+
+    >>> from assur.model.registry import load_record
+    >>> [round(number, 6) for number in bar_weights(load_record("zeng2019"), "link12")]
+    [2.46615, 0.000123]
+    """
+    data = record.machine.links.get(link)
+    if data is None or not data.weighs or not _of_bars_alone(data):
+        return None
+    per_metre, polar, _ = _bar_weights(record, link, data)
+    return per_metre, per_metre * polar
+
+
+def _bar_weights(record: MechanismRecord, link: str, data: LinkData) -> tuple[float, float, str]:
+    """Kilograms of a metre, the square of the radius of gyration about the bar's own axis in m2, and the source."""
+    length = METRES[record.unit] * sum(bar.length for bar in link_bars(record, link))
+    if length == 0.0:
+        raise UsageError(f"link {link} of {record.name}: its bars have no length", hint="give it a mass")
+    profile = record.machine.profiles[data.profile] if data.profile else None
+    per_metre, source = _weight(record, link, data, profile, length)
+    return per_metre, profile.polar / profile.area if profile else 0.0, source
 
 
 def _weight(

@@ -1,0 +1,54 @@
+"""`assur stiffness`: the same as the library says, in SI units, readable, and refused where it must be."""
+
+import numpy as np
+import pytest
+
+import assur
+
+POSE = ("-15.4714", "9.6849", "456.3315")
+
+
+def test_numbers_are_those_of_the_library_in_si_units(assur_cli):
+    run = assur_cli("stiffness", "zeng2019", "--pose", *POSE, "--json")
+    own = assur.load("zeng2019").stiffness([float(text) for text in POSE])
+    data = run.json
+    assert (run.code, data["status"], data["mode"], data["rank"], data["shear"]) == (0, "regular", "++-++", 6, True)
+    assert np.array(data["compliance"]) == pytest.approx(own.compliance[0])
+    assert np.array(data["stiffness"]) == pytest.approx(own.stiffness[0])
+    assert data["translational_eigenvalues"] == pytest.approx(own.translational[0][0])
+    assert np.array(data["directions"]) == pytest.approx(own.translational[1][0])
+    assert data["actuator_only"]["translational_eigenvalues"][0] == pytest.approx(19.5e6, rel=1e-3)
+    assert (data["actuator_only"]["rank"], data["actuator_only"]["stiffness"]) == (3, None)
+    for split in ("links", "kinds", "actuators"):
+        assert sum(data["shares"][split].values()) == pytest.approx(1.0)
+    assert list(data["shares"]["kinds"]) == ["bending", "torsion", "axial", "shear", "actuators"]
+    assert len(data["frequencies"]) == 6
+    assert data["units"].keys() <= data.keys()
+
+
+def test_a_person_sees_directions_matrices_and_where_the_energy_is(assur_cli):
+    out = assur_cli("stiffness", "zeng2019", "--pose", *POSE, "--no-shear").out
+    for word in ("0.226373", "19.5001", "link12", "bending 87.6%", "shear 0.0%", "natural vibrations"):
+        assert word in out
+
+
+def test_rigid_links_leave_ways_in_which_nothing_gives_way(assur_cli):
+    words = ("stiffness", "gough_stewart", "--pose", "0", "0", "600", "1", "0", "0", "0")
+    assert "no link has a profile: only the actuators give way" in assur_cli(*words).out
+    flat = assur_cli("stiffness", "planar_3rpr", "--pose", "30", "40", "0", "--json")
+    assert (flat.code, flat.json["rank"], flat.json["stiffness"]) == (0, 3, None)
+    assert flat.json["translational_eigenvalues"][2] is None
+
+
+def test_what_is_lacking_or_wrong_is_told(assur_cli, tmp_path):
+    path = tmp_path / "own.toml"
+    text = assur.load("fivebar").file.read_text(encoding="utf-8").replace("stiffness = 1e5, ", "")
+    path.write_text(text, encoding="utf-8")
+    bare = assur_cli("stiffness", str(path), "--pose", "0", "224")
+    assert bare.code == 2
+    assert "no stiffness of A1, A2" in bare.err
+    assert "A1 = { stiffness = 1e5 }, in N m/rad" in bare.err
+    assert assur_cli("stiffness", "zeng2019").code == 2
+    far = assur_cli("stiffness", "zeng2019", "--pose", "0", "0", "9999", "--json")
+    assert (far.code, far.json["compliance"], far.json["shares"]) == (4, None, None)
+    assert far.json["failures"]

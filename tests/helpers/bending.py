@@ -1,0 +1,120 @@
+"""Mechanisms whose links bend, with profiles at random, and their compliance by another route.
+
+That route knows beams by the matrix of the textbook for twelve displacements, and joints by multipliers.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from assur.joint_graph.frames import frames, screws
+from assur.kinematics.pose import platform_frame
+from assur.kinematics.validation.check import METRES
+from assur.machine.bars import joint_points
+from assur.machine.screws import rate_units
+from assur.machine.structure import structure
+from assur.model.machine_data import Actuator, LinkData, MachineData, Material, Profile
+
+
+@lru_cache
+def bending(record, factor=1.0, seed=0):
+    """The record with bars between all joints of each link, one after the other, of odd sections and materials.
+
+    Links weigh as their bars do, others a kilogram. All E are multiplied by a factor.
+    """
+    random = np.random.default_rng(seed)
+    materials, profiles, links = {}, {}, {}
+    for link in record.links:
+        names = _apart(joint_points(record, link))
+        if link == record.base or len(names) < 2:
+            links[link] = LinkData(mass=1.0)
+            continue
+        width, depth = random.uniform(0.01, 0.03, size=2)
+        materials[link] = Material(link, 5000.0, factor * random.uniform(50e9, 250e9), random.uniform(0.1, 0.4))
+        profiles[link] = Profile(link, "box", (width, depth), width * depth, width * depth**3 / 12,
+                                 depth * width**3 / 12, 0.2 * width * depth**3, up=random.normal(size=3))  # fmt: skip
+        links[link] = LinkData(profile=link, material=link, bars=tuple(pairwise(names)))
+    actuators = {
+        record.coordinate_label(item.coordinate): Actuator(stiffness=random.uniform(1e4, 1e6)) for item in record.drives
+    }
+    return replace(record, machine=MachineData(materials, profiles, links=links, actuators=actuators))
+
+
+def by_multipliers(record, values, shear=True):
+    """Compliance (6, 6), displacement before rotation, at joint values (n,)."""
+    own = structure(record)
+    metre = METRES[record.unit]
+    placed = {link: (turn[0], metre * at[0]) for link, (turn, at) in frames(record, values[None]).items()}
+    at = [placed[link][1] + (placed[link][0] @ own.skeletons[link].nodes[node] if link in own.skeletons else 0.0)
+          for link, node in own.bodies]  # fmt: skip
+    count = 6 * len(at)
+    whole = np.zeros((count, count))
+    for beam in own.beams:
+        data = record.machine.links[beam.link]
+        first, second = beam.bodies
+        turned = placed[beam.link][0] @ beam.axes
+        matrix = textbook(record.machine.profiles[data.profile], record.machine.materials[data.material],
+                          np.linalg.norm(at[second] - at[first]), shear)  # fmt: skip
+        turn = np.kron(np.eye(4), turned)
+        own_places = [*range(6 * first, 6 * first + 6), *range(6 * second, 6 * second + 6)]
+        whole[np.ix_(own_places, own_places)] += turn @ matrix @ turn.T
+    rows = [np.eye(6, count)]  # the base stands still
+    moves = screws(record, values[None])[0]
+    moves[3:] *= metre
+    moves /= rate_units(record)
+    point = metre * platform_frame(record, values[None])[1][0]
+    for name, (parent, child) in own.sides.items():
+        apart = _twist_at(at[child], child, count, point) - _twist_at(at[parent], parent, count, point)
+        own_moves = moves[:, [item.index for item in record.joint_coordinates(name)]]
+        own_moves = np.concatenate(
+            [own_moves[3:] + np.cross(own_moves[:3], point, axis=0).reshape(3, -1), own_moves[:3]]
+        )
+        held = np.linalg.svd(own_moves)[0][:, own_moves.shape[1] :]
+        rows.append(held.T @ apart)
+        along = np.linalg.pinv(own_moves) @ apart
+        for row, item in zip(along, record.joint_coordinates(name), strict=True):
+            whole += own.stiffness[item.index] * np.outer(row, row)
+    constraints = np.concatenate(rows)
+    size = np.abs(whole).max()
+    saddle = np.block([[whole / size, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]])
+    platform = _twist_at(at[own.platform], own.platform, count, point)
+    loads = np.concatenate([platform.T, np.zeros((len(constraints), 6))])
+    return platform @ np.linalg.lstsq(saddle, loads, rcond=1e-14)[0][:count] / size
+
+
+def textbook(profile, material, length, shear):
+    """Timoshenko's beam (12, 12): displacements and rotations of its first end, then of its second."""
+    elasticity, rigidity = material.elasticity, material.elasticity / (2 * (1 + material.poisson))
+    whole = np.zeros((12, 12))
+    for place, value in ((0, elasticity * profile.area), (3, rigidity * profile.torsion)):
+        whole[np.ix_([place, place + 6], [place, place + 6])] = value / length * np.array([[1, -1], [-1, 1]])
+    for push, turn, second, sense in ((1, 5, profile.iz, 1), (2, 4, profile.iy, -1)):
+        bend = elasticity * second
+        phi = 12 * bend / (rigidity * 5 / 6 * profile.area * length**2) if shear else 0.0
+        a, b = 12.0, 6.0 * length * sense
+        c, d = (4 + phi) * length**2, (2 - phi) * length**2
+        matrix = np.array([[a, b, -a, b], [b, c, -b, d], [-a, -b, a, -b], [b, d, -b, c]])
+        whole[np.ix_([push, turn, push + 6, turn + 6], [push, turn, push + 6, turn + 6])] = (
+            bend / length**3 / (1 + phi) * matrix
+        )
+    return whole
+
+
+def _apart(points):
+    """Names of points, one of each place."""
+    kept = {}
+    for name, point in points.items():
+        if all(np.linalg.norm(point - known) > 1e-9 for known in kept.values()):
+            kept[name] = point
+    return list(kept)
+
+
+def _twist_at(own, body, count, point):
+    """Displacement, then rotation (6, count) at a point of a body that is at `own`."""
+    moved = np.zeros((6, count))
+    lever = point - own
+    moved[:, 6 * body : 6 * body + 6] = np.eye(6)
+    moved[:3, 6 * body + 3 : 6 * body + 6] = np.cross(np.eye(3), lever).T
+    return moved
