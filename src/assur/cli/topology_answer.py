@@ -6,16 +6,18 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from textwrap import wrap
 
 from rich.console import RenderableType
 from rich.padding import Padding
 
 from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
-from assur.cli.output import Verbatim, heading, table
+from assur.cli.output import Verbatim, console, heading, table
 from assur.results.answers.topology import MetMode
 from assur.results.plain_text import count, signed
 from assur.topology.answers import answers, replacements_by_kind
+from assur.topology.characteristics import characteristics
 from assur.topology.facts import Known, Topology
 from assur.topology.met_modes import NOT_ALL
 
@@ -24,11 +26,8 @@ Said = Callable[[str], str]
 
 _LONG = re.compile(r"-?\d+\.\d{5,}")
 
-FREEDOM = {
-    "full": "one Assur chain has all drives",
-    "partial": "several Assur chains that hang together have them",
-    "separable": "drives of parts that do not hang together",
-}
+WIDEST = 12
+"""Letters of the longest name of a characteristic."""
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 
@@ -77,7 +76,7 @@ def _shown(
 ) -> Iterable[RenderableType]:
     say: Said = ascii_text if ascii_only else str
     yield heading(say(_title(topology)))
-    yield from map(say, _result(topology))
+    yield from _characteristics(topology, say)
     for title, part in PARTS.items():
         lines = list(part(topology, say))
         if lines:
@@ -118,38 +117,13 @@ def _title(topology: Topology) -> str:
     return ": ".join(parts) or ("one chain" if len(topology.limbs) == 1 else f"{len(topology.limbs)} limbs")
 
 
-def _result(topology: Topology) -> Iterator[str]:
-    """The lines that a reader came for."""
-    poc = topology.poc
-    dependent = f", {poc.dependent} of {poc.t + poc.r} dependent" if poc.dependent else ""
-    yield f"POC set      {poc}: dim {poc.dim}{dependent}"
-    other = topology.translating_type
-    points = f"; {other} by the translations of a general point" if other != topology.motion_type else ""
-    yield f"motion       {topology.motion_type}{points}"
-    internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
-    yield f"DOF          F = {topology.dof}{_sum(topology)}{internal}"
-    loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(topology.loops, 1))
-    yield f"loops        {len(topology.loops)}" + (f": {loops}" if loops else "")
-    degree = topology.coupling_degree
-    solved = f"none: {topology.coupling_refusal}" if degree is None else f"κ = {degree}{_freedom(topology)}"
-    yield f"coupling     {solved}"
-    redundant = topology.redundant_constraints
-    yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
-
-
-def _freedom(topology: Topology) -> str:
-    """How the drives share the freedoms."""
-    return f"; {topology.freedom_type} freedom: {FREEDOM[topology.freedom_type]}" if topology.freedom_type else ""
-
-
-def _sum(topology: Topology) -> str:
-    """Eq. (3) in numbers, where every joint is in a loop."""
-    freedoms = [loop.freedoms for loop in topology.loops]
-    if not topology.loops or sum(freedoms) - sum(topology.xi) != topology.dof:
-        return ""
-    if len(freedoms) == 1:
-        return f" = {freedoms[0]} - {topology.xi[0]}"
-    return f" = ({' + '.join(map(str, freedoms))}) - ({' + '.join(map(str, topology.xi))})"
+def _characteristics(topology: Topology, say: Said) -> Iterator[str]:
+    """What a reader came for, one row each."""
+    room = console().width - WIDEST - 1
+    for row in characteristics(topology):
+        names = (say(row.name), *[""] * len(row.text))
+        for name, line in zip(names, wrap(say(row.text), room, break_on_hyphens=False), strict=False):
+            yield f"{name:<{WIDEST}} {line}"
 
 
 def _derivation(topology: Topology, say: Said) -> Iterator[RenderableType]:

@@ -15,7 +15,9 @@ from assur.errors import UsageError
 from assur.results.answers.topology import Loop, OperationModeFacts, RedundantConstraints
 from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
+from assur.topology.alike import alike_limbs
 from assur.topology.chains import Chain
+from assur.topology.conditions import needed_conditions
 from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import Decomposition, coupling
 from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, judged
@@ -23,6 +25,7 @@ from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.freedom_type import freedom_type
 from assur.topology.counting.mobility import Mobility, mobility, motions
+from assur.topology.counting.parasitic import parasitic_elements
 from assur.topology.counting.redundant_drives import DeterminingDrives, determining_drives, driven_by
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import SolutionPlan, solution_plan
@@ -197,7 +200,13 @@ def analyse(
         notes=(_met_at_home(modes),) if home.special or home.is_branch_point else (),
         derive=rules.derivations,
         actuate=asked,
+        passive_joints=tuple(
+            edge.name for edge in home.collapsed if not edge.inputs and edge.name not in collapsed.idle
+        ),
+        alike=alike_limbs(chains or (), [edge.name for edge in home.collapsed if edge.inputs]),
         relax=partial(relaxation, home.joints, base, platform),
+        count_parasitic=partial(parasitic_elements, linkage, home.values, home.space),
+        break_conditions=partial(needed_conditions, chains or (), (collapsed.dof, home.poc), held_in(linkage, mode)),
     )
 
 

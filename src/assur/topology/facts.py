@@ -75,6 +75,8 @@ class Topology:
         determining: with redundant inputs the sets of them that determine the mechanism; else none.
         freedom_type: whether the drives belong to one Assur chain, to several that hang together, or to separate parts;
             None where they do not determine the mechanism.
+        passive_joints: those that move and are not driven; idle ones never do.
+        alike: numbers of the limbs, from 1, those together that have the same joints, drives and relations.
         linkage: what the twists were computed on.
         modes: the operation modes that meet at home, where there are several; all facts are those of the first.
     """
@@ -102,11 +104,15 @@ class Topology:
     inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
     determining: tuple[DeterminingDrives, ...] = ()
+    passive_joints: tuple[str, ...] = ()
+    alike: tuple[tuple[int, ...], ...] = ()
     modes: tuple[OperationModeFacts, ...] = ()
     notes: tuple[str, ...] = ()
     derive: Callable[[], tuple[PocDerivation, ...]] = field(repr=False, default=tuple)
     actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
+    count_parasitic: Callable[[], int | None] = field(repr=False, default=lambda: None)
+    break_conditions: Callable[[], tuple[str, ...] | None] = field(repr=False, default=lambda: None)
 
     def __str__(self) -> str:
         loops = ", ".join(f"ξ = {loop.xi} Δ = {signed(loop.delta)}" for loop in self.loops) or "none"
@@ -182,3 +188,13 @@ class Topology:
     def relaxation(self) -> Relaxation:
         """Which joints could be relaxed to remove redundant constraints; computed when first asked for."""
         return self.relax()
+
+    @cached_property
+    def parasitic(self) -> int | None:
+        """How many elements of the platform's motion are parasitic; None of a shaky mechanism."""
+        return self.count_parasitic()
+
+    @cached_property
+    def conditions(self) -> tuple[str, ...] | None:
+        """Geometric conditions that F and the POC set need; None where dimensions decide too, or there are no limbs."""
+        return self.break_conditions()

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from assur.results.plain_text import signed
+from assur.topology.characteristics import characteristics
 from assur.topology.facts import LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
 from assur.topology.symbolic.derivation import DerivationStep, PocDerivation
@@ -21,6 +22,13 @@ BROKEN = r"\notag \\"
 SIGNS = {"union": r"\cup", "intersection": r"\cap"}
 PER_LINE = 3
 """Matrices on one line."""
+
+MATHEMATICAL = {
+    **{sign: f"^{power}" for power, sign in enumerate("⁰¹²³")},
+    **{"∥": r"\parallel", "⊥": r"\perp", "◇": r"\Diamond", "ρ": r"\rho"},
+    **{"ξ": r"\xi", "Δ": r"\Delta", "κ": r"\kappa", "\N{MINUS SIGN}": "-", "-": "-"},
+}
+"""Signs that stand in prose, in mathematics."""
 
 _INDEXED = re.compile(r"([A-Za-z]+?)(\d+[a-z]?|)")
 
@@ -40,13 +48,29 @@ class Equation:
 
 
 def fragment(topology: Topology) -> str:
-    r"""The equations of a topology, aligned, to be put into a document with the packages of `NEEDS`."""
+    r"""The table of characteristics and the equations, to be put into a document with the packages of `NEEDS`."""
     lines = [
         f"{equation.left} &= {equation.right}{_dimension(equation)}".replace("\n", f" {BROKEN}\n  &\\quad ")
         for equation in equations(topology)
     ]
     body = " \\\\\n".join(f"  {line}" for line in lines)
-    return f"% {_ascii(topology.name)}: needs {NEEDS}\n\\begin{{align}}\n{body}\n\\end{{align}}"
+    equations_printed = f"{{\\allowdisplaybreaks\n\\begin{{align}}\n{body}\n\\end{{align}}}}"
+    return f"% {_ascii(topology.name)}: needs {NEEDS}\n{characteristics_table(topology)}\n{equations_printed}"
+
+
+def characteristics_table(topology: Topology) -> str:
+    r"""The table of characteristics, a tabular of two columns."""
+    rows = "".join(f"  {_prose(row.name)} & {_prose(row.text)} \\\\\n" for row in characteristics(topology))
+    return f"\\begin{{tabular}}{{lp{{0.7\\linewidth}}}}\n  \\hline\n{rows}  \\hline\n\\end{{tabular}}"
+
+
+def _prose(text: str) -> str:
+    r"""A text with its signs in mathematics.
+
+    >>> _prose("t³ r⁰(∥R_1), κ = 1")
+    't$^3$ r$^0$($\\parallel$R\\_1), $\\kappa$ = 1'
+    """
+    return "".join(f"${MATHEMATICAL[sign]}$" if sign in MATHEMATICAL else _escaped(sign) for sign in text)
 
 
 def _dimension(equation: Equation) -> str:

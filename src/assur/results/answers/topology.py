@@ -280,7 +280,9 @@ class RulesRefusal:
 class TopologyAnswer(Answer):
     """The facts of a topology; what does not exist is null.
 
-    `motion_type` counts independent elements, translations and rotations; `freedom_type` is full, partial or separable.
+    `motion_type` counts independent elements, translations and rotations, `parasitic` those of the others that no point
+    of the platform is without; `freedom_type` is full, partial or separable. `alike` are limbs with the same joints,
+    drives and relations, `conditions` the geometric ones that F and the POC set need.
     `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
     was written, `latex` a fragment for a paper; `modes` are there where they are asked for.
     """
@@ -292,11 +294,15 @@ class TopologyAnswer(Answer):
     poc: PlatformPoc
     limbs: tuple[LimbAnswer, ...]
     motion_type: str
+    parasitic: int | None
     freedom_type: str | None
     dof: int
     internal_freedoms: int
     internal_joints: tuple[Names, ...]
+    passive_joints: Names
     idle_joints: Names
+    alike: tuple[tuple[int, ...], ...]
+    conditions: Names | None
     loops: tuple[Loop, ...]
     assur_chains: tuple[AssurChain, ...]
     coupling_degree: int | None

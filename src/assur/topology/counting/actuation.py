@@ -14,11 +14,12 @@ from itertools import combinations, islice
 from math import comb
 from typing import Literal
 
+import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.counting.mobility import AT_REST, motions
-from assur.topology.screws.edges import Edge, column_names, input_columns, rank
+from assur.topology.screws.edges import Edge, column_names, graph, input_columns, rank
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
@@ -46,7 +47,7 @@ class Actuation:
             none where all of them do not.
         superfluous: inputs without which the others lock as much; those that a preload can act in.
         helpful: components that would lock a freedom that is left.
-        sets: admissible sets of components, in the order of the joints.
+        sets: admissible sets of components, those near the base first.
         tried, possible: sets that were tried, of so many that there are.
         in_some, in_every: components that are in some, and in every, admissible set (of all possible ones).
     """
@@ -146,7 +147,13 @@ def actuation(
     needed = space.useful.shape[-1]
     rows = driven_columns(edges, space.internal)
     locked = rank(space.useful[:, chosen], scale=1.0)
-    sets, possible = _admissible(space.useful[:, rows], limit)
+    near = _from_base(edges, base)
+    nearest = sorted(rows, key=lambda column: near[column])
+    sets, possible = _admissible(space.useful[:, nearest], limit)
+    columns = sorted(
+        (sorted(nearest[index] for index in subset) for subset in sets),
+        key=lambda subset: (sum(near[column] for column in subset), subset),
+    )
     determining, _ = _admissible(space.useful[:, chosen], limit) if locked == needed else ([], 0)
     some, every = _in_sets(space.useful[:, rows])
     return Actuation(
@@ -163,12 +170,18 @@ def actuation(
         helpful=tuple(names[column] for column in rows if rank(space.useful[:, [*chosen, column]], scale=1.0) > locked)
         if locked < needed
         else (),
-        sets=tuple(tuple(names[rows[index]] for index in admissible) for admissible in sets),
+        sets=tuple(tuple(names[column] for column in subset) for subset in columns),
         tried=min(limit, possible),
         possible=possible,
         in_some=tuple(names[rows[index]] for index in some),
         in_every=tuple(names[rows[index]] for index in every),
     )
+
+
+def _from_base(edges: Sequence[Edge], base: str) -> list[int]:
+    """How many joints stand between each column's joint and the base."""
+    away = nx.single_source_shortest_path_length(graph(edges), base)
+    return [min(away[edge.parent], away[edge.child]) for edge in edges for _ in range(edge.freedoms)]
 
 
 def driven_columns(edges: Sequence[Edge], internal: FloatArray) -> list[int]:

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from assur.topology.screws.configurations import Hold, closed_by_chance, crossed, lasting, walked
 from assur.topology.screws.edges import closure, rank
 from assur.topology.screws.linkage import Linkage
-from assur.topology.screws.screws import screw_tree
 from assur.topology.screws.twists import (
     ShakyError,
     UnclearRankError,
     dimensions,
     edges,
     fixed_directions,
+    in_platform,
     motion_space,
 )
 
@@ -100,7 +100,7 @@ def kind_around(
     except (UnclearRankError, ShakyError):
         return None
     t, r, dim, freedoms, rank_of_closure = numbers
-    fixed = (_fixed(space), _fixed(_in_platform(linkage, values, space)))
+    fixed = (_fixed(space), _fixed(in_platform(linkage, values, space)))
     return ModeKind(t, r, dim, freedoms, rank_of_closure, *fixed, crossed(linkage, value)), values
 
 
@@ -125,10 +125,3 @@ def _numbers(linkage: Linkage, values: FloatArray) -> tuple[int, int, int, int, 
 def _fixed(space: FloatArray) -> tuple[int, int]:
     translations, rotations = fixed_directions(space)
     return len(translations), len(rotations)
-
-
-def _in_platform(linkage: Linkage, values: FloatArray, space: FloatArray) -> FloatArray:
-    """A motion space (N, 6, k) in the axes of the platform."""
-    tree = screw_tree(linkage)
-    back = np.swapaxes(tree.at(values / tree.scales).frames[:, tree.frames[linkage.platform], :3, :3], -1, -2)
-    return np.concatenate([back @ space[:, :3], back @ space[:, 3:]], axis=1)

@@ -278,3 +278,10 @@ def _common(vectors: FloatArray) -> FloatArray:
     shares, directions = np.linalg.eigh(outside)
     rows: FloatArray = directions[:, shares < COMMON].T
     return rows
+
+
+def in_platform(linkage: Linkage, values: FloatArray, space: FloatArray) -> FloatArray:
+    """A motion space (N, 6, k) at configurations (N, n), in the axes of the platform."""
+    tree = screw_tree(linkage)
+    back = np.swapaxes(tree.at(values / tree.scales).frames[:, tree.frames[linkage.platform], :3, :3], -1, -2)
+    return np.concatenate([back @ space[:, :3], back @ space[:, 3:]], axis=1)
