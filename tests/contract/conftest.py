@@ -22,21 +22,13 @@ from assur.numerics import rotations
 from assur.singularity.examples import singular_examples as find_singular_examples
 
 DERIVED = ("zeng2019", "fivebar", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide", "tsai_platform",
-           "three_p2us", "three_crr", "tripteron", "planar_3rpr", "planar_3rrr", "three_rrc")  # fmt: skip
+           "three_p2us", "three_crr", "tripteron", "planar_3rpr", "planar_3rrr", "three_rrc", "h4_robot")  # fmt: skip
 """That of the 3-RPR has legs of either sign, and so more branches than the written one."""
-CLOSE = ("near a root that is nearly double the derived polynomial loses digits",
-         ("test_every_direct_solution_closes_the_whole_joint_graph",))  # fmt: skip
-LACKING = {"three_rrc": CLOSE}
-"""What derived forms do not have so far, and the laws that fail for it."""
 REPLACED = [pytest.param(f"{name}, derived", marks=pytest.mark.deep) for name in DERIVED]
 
 
 @pytest.fixture(params=[*assur.names(), *REPLACED])
 def mechanism(request):
-    name, _, derived = request.param.partition(", ")
-    why, laws = LACKING.get(name, ("", ()))
-    if derived and request.function.__name__ in laws:
-        request.applymarker(pytest.mark.xfail(reason=why, strict=True))
     return _loaded(request.param)
 
 

@@ -62,19 +62,3 @@ def test_answers_and_names_are_those_of_the_hand_written_form(both):
                 assert np.allclose(value, back[1][mode], rtol=0, atol=1e-9 * length)
             compared += 1
     assert compared >= 8
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize("inputs", [(2.7492131724735467, 2.2919786159878512), (2.4901437704215477, 2.746860385649838)])
-def test_poses_that_share_a_root_are_not_lost(inputs, tmp_path):
-    """Of a 3-RRC with two equal inputs two poses have the unknown's value in common, where back-substitution is 0/0."""
-    written = load_record("three_rrc")
-    shutil.copy(written.file, tmp_path / "mechanism.toml")
-    (tmp_path / "closed_form.py").write_text(derive(written).closed_form())
-    given = np.array([*inputs, inputs[0]])
-    poses, derived = (
-        np.array(sorted(own.pose.tolist() for own in direct(record, given)))
-        for record in (written, load_record(tmp_path))
-    )
-    assert len(poses) >= 4
-    assert np.allclose(poses, derived, rtol=0, atol=1e-9 * characteristic_length(written))

@@ -104,7 +104,9 @@ def test_a_mechanism_without_closed_form_is_refused(tmp_path):
         c99_text(load_record(tmp_path / "mechanism.toml"))
 
 
-@pytest.mark.parametrize("name", [*ROOTS, *POLYNOMIALS, "gough_stewart"])
+@pytest.mark.parametrize(
+    "name", [*ROOTS, *POLYNOMIALS, "gough_stewart", pytest.param("three_rrc", marks=pytest.mark.deep)]
+)
 def test_it_compiles_without_a_warning_and_its_own_test_is_fine(name, tmp_path):
     target = compiled(name, tmp_path, f"-D{identifier(name).upper()}_TEST")
     assert subprocess.run([str(target)], check=True, capture_output=True, text=True).stdout == f"{name}: fine\n"

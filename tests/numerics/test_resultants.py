@@ -109,3 +109,27 @@ def test_quadratic_parts_need_not_give_the_squares_at_a_fixed_t():
     x = np.roots([1, 0, -5, 0, 13])
     for t in 3 / x:
         assert abs(value(coefficients, t)) < 1e-9 * np.abs(coefficients).max()
+
+
+def test_sums_of_squares_meet_where_each_of_them_is_one():
+    """Circles of radius 1 about three axes, as cylinders: the eight points are met, and mended where they are not."""
+    rng = np.random.default_rng(4)
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    axes = np.array([axes[0], axes[1], np.cross(axes[0], axes[1]) + 0.3 * axes[0]])
+    shift = 0.2 * rng.normal(size=3)
+    sums = [
+        [(-float(row @ shift), tuple(row)) for row in np.linalg.svd(axis[None])[2][1:]]
+        for axis in axes
+    ]  # fmt: skip
+    quadrics = tuple(map(resultants.sum_of_squares, sums))
+    met = 0
+    for t in polynomials.roots(np.array(resultants.eliminant(quadrics), dtype=float)):
+        if abs(t.imag) < 1e-9:
+            x, y, _ = resultants.other_two(quadrics, t.real)
+            point = np.array(resultants.ASKEW).T @ (t.real, x, y)
+            wrong = tuple(point + 1e-4 * rng.normal(size=3))
+            for place, gap in ((tuple(point), 1e-6), (resultants.nearer(sums, wrong), 1e-12)):
+                totals = [sum((k + np.dot(f, place)) ** 2 for k, f in forms) for forms in sums]
+                np.testing.assert_allclose(totals, 1, atol=gap)
+            met += 1
+    assert met in (4, 6, 8)

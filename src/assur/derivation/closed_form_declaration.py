@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from assur.derivation.closed_form_formulas import APART
 from assur.derivation.closed_form_meanings import CoincidenceMotion
 from assur.derivation.closed_form_parts import ClosedFormParts
 from assur.derivation.constraint_couples import COPLANAR
@@ -33,7 +34,8 @@ class ClosedFormDeclaration(ClosedFormParts):
             signs = tuple(self.formulas.signs["direct", own.symbol][0] for own in self.formulas.direct.roots)
             extra = f", {signs!r}" if signs else ""
             degree = self.formulas.direct.branches
-            lines.append(f'    direct=Eliminant("{self.unknown}", "angle", {degree}, coefficients, back{extra}),')
+            kind = "angle" if self.formulas.three_quadrics is None else "plain"
+            lines.append(f'    direct=Eliminant("{self.unknown}", "{kind}", {degree}, coefficients, back{extra}),')
         lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
         quantities = [*self._quantity_list()]
         if quantities:
@@ -88,6 +90,9 @@ class ClosedFormDeclaration(ClosedFormParts):
         solution = self.formulas.solution(problem)
         roots = {root.radicand: root for root in solution.roots}
         for name, value in self.formulas.margins(problem):
+            if value == APART:
+                yield f'Margin("{name}", "1", "two poses share the unknown {self.unknown}", unit=2, zero="degenerate")'
+                continue
             whole = self.formulas.in_unknowns(solution, value)
             unit, scale = self.formulas.unit(whole), self.formulas.margin_scale(problem, value)
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
@@ -105,6 +110,10 @@ class ClosedFormDeclaration(ClosedFormParts):
             for name, coordinate in self.formulas.inverse.symbols.record.angles.items()
             if name in self.angles
         }
-        if self.eliminant is not None:
+        three = self.formulas.three_quadrics
+        if three is not None:
+            names = ", ".join(map(str, three.unknowns))
+            yield f'Quantity("{self.unknown}", "number", "", (), "", "direct", "(6, 2, 3)/7 . ({names})")'
+        elif self.eliminant is not None:
             own[self.unknown] = f"angle of {self.eliminant.direction.links[0]}, the unknown of the direct problem"
-        return (f'Quantity("{name}", "angle", "", meaning="{meaning}")' for name, meaning in own.items())
+        yield from (f'Quantity("{name}", "angle", "", meaning="{meaning}")' for name, meaning in own.items())

@@ -17,6 +17,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
+from assur.derivation.three_quadrics import ThreeQuadrics, three_quadrics
 from assur.derivation.velocities import VelocityEquations, velocity_equations
 from assur.joints.steps import about
 from assur.kinematics.modes import Problem
@@ -25,6 +26,8 @@ from assur.numerics.vectors import dot, product, transposed
 
 LENIENT = 2
 """So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
+APART = sympy.Symbol("apart", real=True)
+"""Of a root in askew coordinates: a square without scale that vanishes where two solutions have the same one."""
 
 
 @dataclass(frozen=True)
@@ -168,13 +171,22 @@ class ClosedFormFormulas:
                 return direction.unknowns[0], direction.unknowns[1]
         raise NotDerivedError(f"the platform's {name}")
 
+    @cached_property
+    def three_quadrics(self) -> ThreeQuadrics | None:
+        """Those of the set with a polynomial of the direct problem, where it leaves three."""
+        part = next((part for part in self.direct.sets if part.eliminant is not None), None)
+        return None if part is None else three_quadrics(part, self.direct.symbols.witness)
+
     def margins(self, problem: Problem) -> Iterator[tuple[str, sympy.Expr]]:
         """Names and formulas of what must not vanish, and of radicands."""
         solution = self.solution(problem)
         for part in solution.sets:
-            for number, condition in enumerate(part.conditions, start=1):
+            three = self.three_quadrics if problem == "direct" and part.eliminant is not None else None
+            for number, condition in enumerate(part.conditions if three is None else three.conditions, start=1):
                 if self._divides(solution, part, condition):
                     yield self._condition_name(condition, part.directions[0].name, number), condition
+            if three is not None:
+                yield APART.name, APART
             for root in part.roots:
                 yield root.radicand.name, root.radicand
         for tilt in self.joints.tilts:

@@ -59,7 +59,8 @@ class ClosedFormMeanings:
         if value in own.radicands:
             return own.radicands[value]
         for part in self.formulas.solution(problem).sets:
-            if value in part.conditions:
+            three = self.formulas.three_quadrics if part.eliminant is not None else None
+            if value in part.conditions or (three is not None and value in three.conditions):
                 return own.condition(part, value)
         if (rod := self.formulas.joints.leaning.get(value)) is not None:
             lines = self.reach["inverse"].lines

@@ -11,6 +11,7 @@ import sympy
 from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.closed_form_meanings import ClosedFormMeanings, CoincidenceMotion
+from assur.derivation.definitions import FreeNames
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +80,11 @@ class ClosedFormParts:
 
     @property
     def unknown(self) -> str:
-        """What the polynomial is in, as a quantity: the platform's angle, or that of a link."""
+        """What the polynomial is in, as a quantity: an askew coordinate, the platform's angle, or that of a link."""
         record, eliminant = self.formulas.direct.symbols.record, self.eliminant
         if eliminant is None:
             return ""
+        if self.formulas.three_quadrics is not None:
+            return str(FreeNames({*record.platform.pose, *record.angles, *record.parameters}).named("t"))
         posed = "phi" in record.platform.pose and record.platform.link in eliminant.direction.links
         return "phi" if posed else eliminant.direction.name

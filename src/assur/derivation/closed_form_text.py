@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
 import sympy
 
-from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.closed_form_declaration import ClosedFormDeclaration
-from assur.derivation.closed_form_parts import ClosedFormParts
-from assur.derivation.definitions import Definition, FreeNames
-from assur.derivation.elimination import Root
+from assur.derivation.closed_form_kernels import ClosedFormKernels
 from assur.derivation.joint_formulas import BallRotation, Pointing
-from assur.derivation.kernel_text import KernelPrinter, sign_attribute, sign_text
+from assur.derivation.kernel_text import sign_attribute
 from assur.derivation.symbols import circle_of
-from assur.kinematics.modes import Problem
 
 CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""
 
@@ -26,39 +22,22 @@ from assur.model.closed_form import {declared}
 {imports}
 '''
 
-OVER_CIRCLE = '''
-def _over_circle(values):
-    """A polynomial in t, over 1 + t^2, which divides it."""
-    quotient = []
-    for k in range(len(values) - 2):
-        quotient.append(values[k] - quotient[k - 2] if k > 1 else values[k])
-    return tuple(quotient)
-'''
 
-
-ACROSS = (3, 1, 0)
-"""A direction along which no line through coinciding centres lies but by chance: machines have axes along x, y, z."""
-
-
-class ClosedFormText(ClosedFormParts):
+class ClosedFormText(ClosedFormKernels):
     """Writes the closed form of a mechanism whose direct and inverse problems were solved."""
 
     def text(self) -> str:
         """The file."""
         declared = ClosedFormDeclaration(self.formulas, self.meanings, self.constraint_singular, self.couples)
-        parts = [self._head(), self._problem("inverse"), self._problem("direct"), self._self_motion(), self._core(),
+        parts = [self._head(), self.problem("inverse"), self.problem("direct"), self.self_motion_kernel(), self._core(),
                  self._joints(), self._factors(), self._jacobians(), self._quantities(), declared.text()]  # fmt: skip
         return "\n\n".join(part.strip("\n") + "\n" for part in parts if part)
-
-    @cached_property
-    def printer(self) -> KernelPrinter:
-        """Prints formulas."""
-        return KernelPrinter(self.formulas.inverse.symbols.record.parameters)
 
     def _head(self) -> str:
         record = self.formulas.inverse.symbols.record
         sets = "; ".join(part.name for part in self.formulas.direct.sets)
         imports = []
+        three = self.formulas.three_quadrics
         declared = ["Branch", "ClosedForm", "Factor", "Margin", "Sign"]
         if self.angles or self.eliminant is not None:
             declared.append("Quantity")
@@ -66,10 +45,20 @@ class ClosedFormText(ClosedFormParts):
             declared.append("SelfMotion")
         if self.eliminant is not None:
             declared.append("Eliminant")
-            imports.append("from assur.numerics.expanded import coefficients_of, unknowns")
+            imports.append(
+                "from assur.numerics.expanded import coefficients_of, unknowns"
+                if three is None
+                else "from assur.numerics.resultants import ASKEW, eliminant, nearer, other_two, sum_of_squares"
+            )
         if any(own.lean == 0 for own in self.formulas.joints.pointings):
             imports.append("from assur.numerics.legs import pointing")
-        used = {"taking": bool(self.formulas.joints.tilts), "product": self._many, "transposed": self._turned}
+        used = {
+            "apply": three is not None,
+            "dot": three is not None,
+            "taking": bool(self.formulas.joints.tilts),
+            "product": self._many,
+            "transposed": self._turned or three is not None,
+        }
         if self.motion is not None and self.motion.centres:
             imports.append("from assur.numerics.meetings import coincident_spheres")
         vectors = sorted(name for name, needed in used.items() if needed)
@@ -95,138 +84,23 @@ class ClosedFormText(ClosedFormParts):
     def _turned(self) -> bool:
         return any(turned for ball in self._balls for _, turned in ball.parts)
 
-    def _problem(self, problem: Problem) -> str:
-        if problem == "direct" and self.eliminant is not None:
-            return "\n\n".join(part.strip("\n") + "\n" for part in self._polynomial(self.eliminant))
-        solution = self.formulas.solution(problem)
-        names = [self.formulas.signs[problem, root.symbol][0] for root in solution.roots]
-        title = "Pose at given inputs" if problem == "direct" else "Inputs at a pose"
-        given = "inputs" if problem == "direct" else "pose"
-        lines = [f"def {problem}(ns, p, {given}, sign):"]
-        lines.append(f'    """{title}. Signs: {", ".join(names) or "none"}."""')
-        lines += self._given(problem)
-        lines += self._lines(problem, solution.definitions)
-        return "\n".join([*lines, *self._branch(problem)])
-
-    def _lines(self, problem: Problem, definitions: Iterable[Definition]) -> Iterator[str]:
-        roots = {root.symbol: root for root in self.formulas.solution(problem).roots}
-        return (self._line(problem, own, roots) for own in definitions)
-
-    def _self_motion(self) -> str:
-        """The kernel of the curve on which the platform moves while the inputs stand."""
-        motion = self.motion
-        if motion is None:
-            return ""
-        given = motion.part.directions[0].unknowns
-        lines = ["def self_motion(ns, p, inputs, angle, sign):"]
-        signs = ", ".join(self.motion_signs) or "none"
-        lines.append(f'    """Poses at {motion.condition} = 0, by {self.motion_angle}. Signs: {signs}."""')
-        lines += self._given("direct")
-        before, after = _split(motion.definitions, given)
-        if motion.centres:
-            lines += self._lines("direct", before)
-            second, third = map(self._pair_text, motion.centres)
-            lines.append(f"    centres = ((0, 0, 0), {second}, {third})")
-            call = f"coincident_spheres(ns, centres, 1, {ACROSS!r}, angle)"
-            lines.append(f"    ({', '.join(map(str, given))}), radicand = {call}")
-            lines += self._lines("direct", after)
-        else:
-            lines.append(f"    {', '.join(map(str, given))} = angle")
-            lines += self._lines("direct", motion.definitions)
-        every = {own.symbol for own in self.formulas.direct.definitions}
-        left_out = every - {own.symbol for own in motion.definitions} - {*given}
-        radicand = motion.part.roots[0].radicand if motion.centres else None
-        return "\n".join([*lines, *self._branch("direct", left_out, radicand)])
-
-    def _branch(
-        self, problem: Problem, left_out: Collection[sympy.Symbol] = (), radicand: sympy.Symbol | None = None
-    ) -> list[str]:
-        """The rest of a kernel, once its unknowns are known; margins of what is left out are left out too, but for a
-        radicand that is called so.
-        """
-        lines = [f"    {symbol.name} = {self.printer.doprint(value)}" for symbol, value in self.formulas.rest(problem)]
-        lines.append(f"    core = _core(ns, p, {', '.join(map(str, [*self.formulas.posed, *self.formulas.unknowns]))})")
-        margins = ", ".join(
-            f'"{name}": {"radicand" if value == radicand else self.printer.doprint(value)}'
-            for name, value in self.formulas.margins(problem)
-            if value == radicand or not value.free_symbols & {*left_out}
-        )
-        pose, inputs = self._pair_text(self.formulas.posed_pairs), self._pair_text(self.formulas.input_pairs)
-        lines.append(f"    margins = {{{margins}}}")
-        lines.append(f"    return Branch({pose}, {inputs}, margins, core)")
-        return lines
-
-    def _polynomial(self, eliminant: AngleEliminant) -> Iterator[str]:
-        """The kernels of a direct problem that ends in one polynomial."""
-        solution, names = self.formulas.direct, [self.formulas.signs["direct", own.symbol][0] for own in
-                                                 self.formulas.direct.roots]  # fmt: skip
-        arguments = "ns, p, inputs" + (", sign" if names else "")
-        before: list[Definition] = []
-        for part in solution.sets:
-            if part.eliminant is not None:
-                break
-            before += part.definitions
-        cosine, sine = eliminant.direction.unknowns
-        one = FreeNames({*solution.symbols.parameters, str(cosine), str(sine)}).named("one")
-        last = eliminant.steps[-1].symbol
-        lines = [f"def coefficients({arguments}):"]
-        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self.unknown}/2)."""')
-        lines += self._given("direct")
-        lines += self._lines("direct", (*before, *eliminant.known))
-        lines.append("    (t,) = unknowns(1)")
-        lines.append(f"    {cosine}, {sine}, {one} = 1 - t * t, 2 * t, 1 + t * t")
-        lines += self._lines("direct", eliminant.program(one))
-        text = f"coefficients_of({last}, {eliminant.degree + 2 * eliminant.spare + 1})"
-        for _ in range(eliminant.spare):
-            text = f"_over_circle({text})"
-        yield "\n".join([*lines, f"    return {text}"])
-        if eliminant.spare:
-            yield OVER_CIRCLE
-        lines = [f"def back({arguments}, root):" if not names else "def back(ns, p, inputs, root, sign):"]
-        lines.append(f'    """The pose at a root, cosine and sine of {self.unknown}."""')
-        lines += self._given("direct")
-        lines.append(f"    {cosine}, {sine} = root")
-        lines += self._lines("direct", solution.definitions)
-        yield "\n".join([*lines, *self._branch("direct")])
-
     def _quantities(self) -> str:
         """The angles that the file names, and the unknown of the polynomial."""
-        texts = {name: self._pair_text(pair) for name, pair in self.angles.items()}
-        if self.eliminant is not None:
+        texts = {name: self.pair_text(pair) for name, pair in self.angles.items()}
+        used = [part for pair in self.angles.values() for part in pair]
+        three = self.formulas.three_quadrics
+        if three is not None:
+            place = [self.formulas.of_direct(own) for own in three.unknowns]
+            texts[self.unknown], used = f"dot(ASKEW[0], {self.pair_text(place)})", [*used, *place]
+        elif self.eliminant is not None:
             pair = circle_of("phi") if self.unknown == "phi" else self.eliminant.direction.unknowns
             texts[self.unknown] = f"({', '.join(f'core.{own}' for own in pair)})"
         if not texts:
             return ""
         lines = ["def quantities(ns, p, core):", '    """Angles by their names."""']
-        lines += self._taken([part for pair in self.angles.values() for part in pair])
+        lines += self._taken(used)
         body = ", ".join(f'"{name}": {text}' for name, text in texts.items())
         return "\n".join([*lines, f"    return {{{body}}}"])
-
-    def _line(self, problem: Problem, own: Definition, roots: Mapping[sympy.Symbol, Root]) -> str:
-        text = self.printer.doprint(own.formula)
-        if own.symbol in roots:
-            name, sense = self.formulas.signs[problem, own.symbol]
-            product = self.formulas.sign_product(problem, own.symbol)
-            if product.divisors:  # whose signs the root has too
-                whole = sympy.prod(product.divisors)
-                text = self.printer.doprint(whole * sympy.sqrt(roots[own.symbol].radicand / whole**2))
-            names = "".join(f"{sign_text(other)} * " for other in (name, *product.names))
-            text = f"{'-' if sense < 0 else ''}{names}{text}"
-        return f"    {own.symbol.name} = {text}"
-
-    def _given(self, problem: Problem) -> list[str]:
-        pairs = self.formulas.posed_pairs if problem == "inverse" else self.formulas.printed_inputs
-        left = self._pair_text(pairs, calls=False)
-        return [f"    {left} = {'pose' if problem == 'inverse' else 'inputs'}"]
-
-    def _pair_text(self, values: Sequence[Any], calls: bool = True) -> str:
-        def one(value: Any) -> str:
-            if isinstance(value, tuple):
-                return f"({', '.join(map(one, value))})"
-            return self.printer.doprint(value) if calls else str(value)
-
-        text = ", ".join(map(one, values))
-        return f"({text},)" if len(values) == 1 else f"({text})"
 
     def _core(self) -> str:
         names = [str(symbol) for symbol in (*self.formulas.posed, *self.formulas.unknowns)]
@@ -284,7 +158,7 @@ class ClosedFormText(ClosedFormParts):
         flat += [entry for tilt in self.formulas.joints.tilts for entry in (*tilt.line, *tilt.direction)]
         lines = ["def joints(ns, p, core):", '    """Every joint\'s value."""', *self._taken(flat)]
         for tilt in self.formulas.joints.tilts:
-            line, direction = self._pair_text(tilt.line), self._pair_text(tilt.direction)
+            line, direction = self.pair_text(tilt.line), self.pair_text(tilt.direction)
             lines.append(f"    {tilt.name} = taking({line}, {direction})")
         lines.append("    return {")
         lines += [f'        "{name}": {self._value(value)},' for name, value in self.formulas.joints.values.items()]
@@ -295,13 +169,13 @@ class ClosedFormText(ClosedFormParts):
         if isinstance(value, BallRotation):
             texts = []
             for part, turned in value.parts:
-                text = part if isinstance(part, str) else self._pair_text([tuple(row) for row in part])
+                text = part if isinstance(part, str) else self.pair_text([tuple(row) for row in part])
                 texts.append(f"transposed({text})" if turned else text)
             whole = texts[0] if texts else "((1, 0, 0), (0, 1, 0), (0, 0, 1))"
             for text in texts[1:]:
                 whole = f"product({whole}, {text})"
             return whole
-        return self._pair_text(value) if isinstance(value, tuple) else self.printer.doprint(value)
+        return self.pair_text(value) if isinstance(value, tuple) else self.printer.doprint(value)
 
     def _factors(self) -> str:
         lines = ["def factors(ns, p, core):", '    """Factors of det Jp and det Jq."""']
@@ -317,23 +191,7 @@ class ClosedFormText(ClosedFormParts):
         lines += self._taken([*jp, *jq])
         for name, matrix in (("jp", jp), ("jq", jq)):
             lines.append(f"    {name} = (")
-            lines += [f"        {self._pair_text(row)}," for row in matrix.tolist()]
+            lines += [f"        {self.pair_text(row)}," for row in matrix.tolist()]
             lines.append("    )")
         lines.append("    return jp, jq")
         return "\n".join(lines)
-
-
-def _split(
-    definitions: Iterable[Definition], given: Collection[sympy.Symbol]
-) -> tuple[list[Definition], list[Definition]]:
-    """Definitions that do not need some symbols, and those that do."""
-    before: list[Definition] = []
-    after: list[Definition] = []
-    late = {*given}
-    for own in definitions:
-        if own.formula.free_symbols & late:
-            after.append(own)
-            late.add(own.symbol)
-        else:
-            before.append(own)
-    return before, after

@@ -21,6 +21,13 @@ def reduced_quadric(
     unknowns: Sequence[sympy.Symbol],
     witness: ModularWitness,
 ) -> Form:
+    """The quadric modulo the circle of the base, with a symbol for each product of two unknowns."""
+    return reduced_form(quadric_form(direction, values, unknowns), base, witness)
+
+
+def quadric_form(
+    direction: UnknownDirection, values: Mapping[sympy.Symbol, Form], unknowns: Sequence[sympy.Symbol]
+) -> Form:
     """The quadric, with a symbol for each product of two unknowns."""
     total: Form = {ONE: -direction.square}
     for own in direction.unknowns:
@@ -32,7 +39,7 @@ def reduced_quadric(
                 total[product_symbol(a, b)] = total.get(product_symbol(a, b), ZERO) + share
             total[a] = total.get(a, ZERO) + 2 * values[own][a] * rest
         total[ONE] += rest**2
-    return reduced_form(total, base, witness)
+    return total
 
 
 def product_symbol(a: sympy.Symbol, b: sympy.Symbol) -> sympy.Symbol:

@@ -167,9 +167,15 @@ class _Source:
         return "\n".join(f"    {line}" for line in lines)
 
     def _coefficients(self) -> str:
-        entries = self.kernels["direct"].outputs["coefficient"]
-        entries_of = {f"coefficient {k}": places[0] for k, places in enumerate(entries.values())}
-        body = self._body("direct", entries_of, {name: [f"c[{k}]"] for k, name in enumerate(entries_of)})
+        kernel = self.kernels["direct"]
+        numbers, entries_of, targets = kernel.numbers.get("coefficient", {}), dict[str, int](), dict[str, list[str]]()
+        fixed: list[str] = []
+        for k, (name, places) in enumerate(kernel.outputs["coefficient"].items()):
+            if name in numbers:
+                fixed.append(f"\n    c[{k}] = {number_text(numbers[name])};")
+            else:
+                entries_of[name], targets[name] = places[0], [f"c[{k}]"]
+        body = self._body("direct", entries_of, targets) + "".join(fixed)
         return (
             f"static void {self.name}_coefficients(const {self.name}_parameters *p, const double *given, "
             f"const double *sign, double *c)\n{{\n    const double root = 0.0;\n"

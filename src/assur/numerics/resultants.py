@@ -14,16 +14,83 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from assur.numerics.polynomials import Polynomial, add, multiply, scaled, subtract
+from assur.numerics.vectors import Vector, apply, cross, dot, transposed, triple
+from assur.numerics.vectors import add as add_vectors
+from assur.numerics.vectors import scaled as scaled_vector
+from assur.numerics.vectors import subtract as subtract_vectors
 
 Number = Any
 Quadric = tuple[Polynomial, Polynomial, Polynomial, Polynomial, Polynomial, Polynomial]
 """Factors of x^2, x y, y^2, x, y and 1, polynomials in t of degrees 0, 0, 0, 1, 1, 2; it is where the sum is zero."""
+Form = tuple[Number, Vector]
+"""k and f of k + f . w, where w are three coordinates."""
 Minors = Mapping[tuple[int, ...], Polynomial]
 """Three columns of three quadrics or forms -> their determinant."""
 
 
+STEPS = 2
+DAMPING = 1e-12
+"""Keeps a step of least squares calm at a double root."""
 ASKEW = ((6 / 7, 2 / 7, 3 / 7), (2 / 7, 3 / 7, -6 / 7), (3 / 7, -6 / 7, -2 / 7))
 """Orthonormal rows t, x, y, askew to the usual planes of symmetry: solutions that mirror each other differ in t."""
+
+
+def sum_of_squares(forms: Sequence[Form]) -> Quadric:
+    """The quadric on which the squares of forms k + f . w in three coordinates add up to 1, in the askew ones.
+
+    Example: the unit sphere, which is one in any orthonormal coordinates.
+
+    >>> axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    >>> [tuple(round(part, 9) + 0.0 for part in own) for own in sum_of_squares([(0, axis) for axis in axes])]
+    [(1.0,), (0.0,), (1.0,), (0.0, 0.0), (0.0, 0.0), (-1.0, 0.0, 1.0)]
+    """
+    total: Quadric = ((0,), (0,), (0,), (0,), (0,), (-1,))
+    for constant, factors in forms:
+        by_t, u, v = apply(ASKEW, factors)
+        far = (constant, by_t)
+        xx, xy, yy, x, y, one = total
+        total = (
+            add(xx, (u * u,)),
+            add(xy, (2 * u * v,)),
+            add(yy, (v * v,)),
+            add(x, scaled(far, 2 * u)),
+            add(y, scaled(far, 2 * v)),
+            add(one, multiply(far, far)),
+        )
+    return total
+
+
+def nearer(sums: Sequence[Sequence[Form]], point: Vector) -> Vector:
+    """A point after two damped steps of least squares towards three such quadrics, for what rounding left.
+
+    >>> axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    >>> [round(part, 9) for part in nearer([[(0, axis)] for axis in axes], (1.001, -0.999, 1.0))]
+    [1.0, -1.0, 1.0]
+    """
+    for _ in range(STEPS):
+        places = [[(constant + dot(factors, point), factors) for constant, factors in forms] for forms in sums]
+        one, two, three = (_sum([scaled_vector(factors, place) for place, factors in own]) for own in places)
+        rows = (one, two, three)
+        (a, b, c), (_, d, e), (_, _, f) = (
+            tuple(dot(row, other) + DAMPING * (i == k) for k, other in enumerate(rows)) for i, row in enumerate(rows)
+        )
+        adjugate = ((d * f - e * e, c * e - b * f, b * e - c * d), (c * e - b * f, a * f - c * c, b * c - a * e),
+                    (b * e - c * d, b * c - a * e, a * d - b * b))  # fmt: skip
+        # the determinant of the damped products of the rows, as squares: never zero
+        volume, lengths = triple(*rows), sum(dot(row, row) for row in rows)
+        areas = sum(dot(area, area) for area in (cross(one, two), cross(two, three), cross(one, three)))
+        determinant = volume * volume + DAMPING * (areas + DAMPING * (lengths + DAMPING))
+        missing = tuple((sum(place * place for place, _ in own) - 1) / 2 for own in places)
+        weights = scaled_vector(apply(adjugate, missing), 1 / determinant)
+        point = subtract_vectors(point, apply(transposed(rows), weights))
+    return point
+
+
+def _sum(vectors: Sequence[Vector]) -> Vector:
+    total: Vector = (0, 0, 0)
+    for own in vectors:
+        total = add_vectors(total, own)
+    return total
 
 
 def eliminant(quadrics: tuple[Quadric, Quadric, Quadric]) -> tuple[Number, ...]:

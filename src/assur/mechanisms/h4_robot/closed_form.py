@@ -15,9 +15,6 @@ from types import SimpleNamespace
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
 from assur.numerics import resultants
 from assur.numerics.meetings import angle_with
-from assur.numerics.polynomials import add as plus
-from assur.numerics.polynomials import multiply
-from assur.numerics.polynomials import scaled as times
 from assur.numerics.vectors import (
     about_x,
     about_y,
@@ -96,18 +93,7 @@ def _quadrics(p, m, foot, along):
     bar1 = tuple(zip(subtract(foot, m[0]), ((along[0], 0, 0), (along[1], 0, side), (along[2], 0, 0)), strict=True))
     bar2 = tuple(zip(subtract(foot, m[2]), ((along[0], -side, 0), (along[1], 0, 0), (along[2], 0, 0)), strict=True))
     turn = ((0, (0, 1, 0)), (0, (0, 0, 1)))
-    return tuple(_sum_of_squares(forms) for forms in (bar1, bar2, turn))
-
-
-def _sum_of_squares(forms):
-    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the askew coordinates."""
-    total = ((0,), (0,), (0,), (0,), (0,), (-1,))
-    for constant, factors in forms:
-        by_t, u, v = apply(resultants.ASKEW, factors)
-        far = (constant, by_t)
-        square = ((u * u,), (2 * u * v,), (v * v,), times(far, 2 * u), times(far, 2 * v), multiply(far, far))
-        total = tuple(plus(part, more) for part, more in zip(total, square, strict=True))
-    return total
+    return tuple(resultants.sum_of_squares(forms) for forms in (bar1, bar2, turn))
 
 
 def _improved(ns, p, pose, arms):

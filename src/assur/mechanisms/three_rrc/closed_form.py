@@ -9,15 +9,10 @@ from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
 from assur.numerics.meetings import angle_with
-from assur.numerics.polynomials import add as plus
-from assur.numerics.polynomials import multiply
-from assur.numerics.polynomials import scaled as times
-from assur.numerics.resultants import ASKEW, eliminant, other_two
-from assur.numerics.vectors import add, apply, cross, difference_of_angles, dot, scaled, subtract, transposed, triple
+from assur.numerics.resultants import ASKEW, eliminant, nearer, other_two, sum_of_squares
+from assur.numerics.vectors import add, apply, difference_of_angles, dot, scaled, transposed, triple
 
 LIMBS = (1, 2, 3)
-DAMPING = 1e-12
-"""Keeps a step of least squares calm at a double root."""
 
 
 def inverse(ns, p, pose, sign):
@@ -35,17 +30,14 @@ def inverse(ns, p, pose, sign):
 
 def coefficients(ns, p, inputs):
     """The nine coefficients of the polynomial in t, the pose's coordinate along ASKEW[0] in units of l2."""
-    return eliminant(_cylinders(ns, _ends(p, inputs)))
+    return eliminant(tuple(sum_of_squares(own) for own in _cylinders(ns, _ends(p, inputs))))
 
 
 def back(ns, p, inputs, t):
     """The pose at a root: the other two coordinates, then two steps of least squares for what rounding left."""
-    ends = _ends(p, inputs)
-    x, y, apart = other_two(_cylinders(ns, ends), t)
-    point = apply(transposed(ASKEW), (t, x, y))
-    for _ in range(2):
-        point = _nearer(ns, ends, point)
-    pose = scaled(point, p.l2)
+    cylinders = _cylinders(ns, _ends(p, inputs))
+    x, y, apart = other_two(tuple(sum_of_squares(own) for own in cylinders), t)
+    pose = scaled(nearer(cylinders, apply(transposed(ASKEW), (t, x, y))), p.l2)
     return Branch(pose, tuple(inputs), {"apart": apart}, _core(ns, p, pose, tuple(inputs)))
 
 
@@ -61,23 +53,8 @@ def _ends(p, cranks):
 
 
 def _cylinders(ns, ends):
-    """(e_i . p - rho_i)^2 + (z - zeta_i)^2 - 1 = 0 in the coordinates t, x, y."""
-    return tuple(
-        _cylinder(apply(ASKEW, e), apply(ASKEW, (0, 0, 1)), end) for e, end in zip(_radial(ns), ends, strict=True)
-    )
-
-
-def _cylinder(outward, up, end):
-    (out_t, out_x, out_y), (up_t, up_x, up_y) = outward, up
-    far, high = (-end[0], out_t), (-end[1], up_t)
-    return (
-        (out_x * out_x + up_x * up_x,),
-        (2 * (out_x * out_y + up_x * up_y),),
-        (out_y * out_y + up_y * up_y,),
-        times(plus(times(far, out_x), times(high, up_x)), 2),
-        times(plus(times(far, out_y), times(high, up_y)), 2),
-        plus(plus(multiply(far, far), multiply(high, high)), (-1,)),
-    )
+    """Forms e_i . p - rho_i and z - zeta_i, whose squares add up to 1 on a cylinder."""
+    return tuple(((-rho, e), (-zeta, (0, 0, 1))) for e, (rho, zeta) in zip(_radial(ns), ends, strict=True))
 
 
 def _rods(ns, ends, point):
@@ -86,19 +63,6 @@ def _rods(ns, ends, point):
         add(scaled(e, dot(e, point) - rho), (0, 0, point[2] - zeta))
         for e, (rho, zeta) in zip(_radial(ns), ends, strict=True)
     )
-
-
-def _nearer(ns, ends, point):
-    """A damped step of least squares towards rods of length 1."""
-    rods = _rods(ns, ends, point)
-    one, two, three = (tuple(dot(a, b) + DAMPING * (i == k) for k, b in enumerate(rods)) for i, a in enumerate(rods))
-    adjugate = transposed((cross(two, three), cross(three, one), cross(one, two)))
-    # the determinant of the damped products of the rods, as squares: never zero
-    volume, lengths = triple(*rods), sum(dot(rod, rod) for rod in rods)
-    areas = sum(dot(area, area) for area in (cross(rods[0], rods[1]), cross(rods[1], rods[2]), cross(rods[2], rods[0])))
-    determinant = volume * volume + DAMPING * (areas + DAMPING * (lengths + DAMPING))
-    weights = scaled(apply(adjugate, tuple((dot(rod, rod) - 1) / 2 for rod in rods)), 1 / determinant)
-    return subtract(point, apply(transposed(rods), weights))
 
 
 def _core(ns, p, pose, cranks):
