@@ -101,3 +101,12 @@ def test_capacity_is_that_of_the_library(assur_cli):
 def test_capacity_takes_no_load_and_forces_a_pose(assur_cli):
     assert "--capacity: at rest" in assur_cli("forces", "zeng2019", "--capacity", *LOAD).err
     assert "--pose is missing" in assur_cli("forces", "zeng2019").err
+
+
+def test_links_that_bend_decide_what_rigid_ones_leave_open(assur_cli):
+    words = ("forces", "zeng2019", "--pose", *POSE, *LOAD)
+    data = assur_cli(*words, "--json").json
+    for item in data["reactions"]:
+        rigid, sure = np.array([*item["force"], *item["moment"]]), np.array(item["unique"])
+        assert np.array(item["elastic"])[sure] == pytest.approx(rigid[sure])
+    assert "the same where links bend by their profiles" in assur_cli(*words).out

@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from assur.kinematics.status import Status
+from assur.machine.elastic_reactions import elastic_reactions
+from assur.machine.forces import forces_at
+from assur.machine.loads import load_of
+from assur.machine.reactions import reactions
 from assur.machine.stiffness import stiffness_at
 from bending import bending, by_multipliers
-from weighed import place
+from weighed import motion_of, place
 
 
 @pytest.fixture
@@ -18,7 +22,7 @@ def test_compliance_is_symmetric_positive_and_that_of_the_other_route(bent):
     """Bars by the matrix of the textbook, joints by multipliers: rigid links and joints that hold twice among them."""
     (compliance,) = bent.compliance
     assert bent.status[0] == Status.regular
-    other = by_multipliers(bent.record, bent.values[0])
+    other, _ = by_multipliers(bent.record, bent.values[0])
     units = np.repeat([bent.length, 1.0], 3)
     size = np.abs(other / units / units[:, None]).max()
     np.testing.assert_allclose(compliance / units / units[:, None], other / units / units[:, None], atol=1e-8 * size)
@@ -42,3 +46,27 @@ def test_as_links_stiffen_only_the_actuators_are_left(mechanism):
     )
     assert motors.rank[0] == len(mechanism.inputs)
     assert less <= 0.012 * left + 1e-9 * np.abs(motors.compliance[0] / units).max()
+
+
+def test_reactions_are_unique_where_no_profile_changes_them_and_open_where_one_does(mechanism):
+    """Under a load in two structures of other profiles, at rest without weight."""
+    values, load = place(mechanism), load_of([3.0, -4.0, 5.0, 0.6, 0.7, -0.8], gravity=False)
+    passed = reactions(forces_at(bending(mechanism), values, load))
+    bent, other = (elastic_reactions(forces_at(bending(mechanism, seed=seed), values, load)) for seed in (0, 1))
+    size = max(np.abs([*item.force, *item.moment]).max() for item in passed.joints)
+    for item in passed.joints:
+        assert bent[item.joint] is not None
+        np.testing.assert_allclose(bent[item.joint][item.unique], other[item.joint][item.unique], atol=1e-8 * size)
+        apart = np.abs(bent[item.joint] - other[item.joint])[~item.unique]
+        assert np.all(apart > 1e-7 * size)
+
+
+def test_in_motion_bars_that_bend_pass_what_newton_and_euler_say(mechanism):
+    record = bending(mechanism)
+    answer = forces_at(record, place(mechanism), load_of([3.0, -4.0, 5.0, 0.6, 0.7, -0.8]), *motion_of(mechanism))
+    bent = elastic_reactions(answer)
+    passed = reactions(answer)
+    size = max(np.abs([*item.force, *item.moment]).max() for item in passed.joints)
+    for item in passed.joints:
+        rigid = np.concatenate([item.force, item.moment])
+        np.testing.assert_allclose(bent[item.joint][item.unique], rigid[item.unique], atol=1e-8 * size)

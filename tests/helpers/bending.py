@@ -43,7 +43,10 @@ def bending(record, factor=1.0, seed=0):
 
 
 def by_multipliers(record, values, shear=True):
-    """Compliance (6, 6), displacement before rotation, at joint values (n,)."""
+    """Compliance (6, 6), displacement before rotation, at joint values (n,), and what joints pass under unit wrenches.
+
+    What a joint's parent passes to its child is (6, 6) force and moment about the platform's point, but for drives.
+    """
     own = structure(record)
     metre = METRES[record.unit]
     placed = {link: (turn[0], metre * at[0]) for link, (turn, at) in frames(record, values[None]).items()}
@@ -60,7 +63,7 @@ def by_multipliers(record, values, shear=True):
         turn = np.kron(np.eye(4), turned)
         own_places = [*range(6 * first, 6 * first + 6), *range(6 * second, 6 * second + 6)]
         whole[np.ix_(own_places, own_places)] += turn @ matrix @ turn.T
-    rows = [np.eye(6, count)]  # the base stands still
+    rows, owners = [np.eye(6, count)], {}  # the base stands still
     moves = screws(record, values[None])[0]
     moves[3:] *= metre
     moves /= rate_units(record)
@@ -72,6 +75,7 @@ def by_multipliers(record, values, shear=True):
             [own_moves[3:] + np.cross(own_moves[:3], point, axis=0).reshape(3, -1), own_moves[:3]]
         )
         held = np.linalg.svd(own_moves)[0][:, own_moves.shape[1] :]
+        owners[name] = held, slice(sum(map(len, rows)), sum(map(len, rows)) + held.shape[1])
         rows.append(held.T @ apart)
         along = np.linalg.pinv(own_moves) @ apart
         for row, item in zip(along, record.joint_coordinates(name), strict=True):
@@ -81,7 +85,9 @@ def by_multipliers(record, values, shear=True):
     saddle = np.block([[whole / size, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]])
     platform = _twist_at(at[own.platform], own.platform, count, point)
     loads = np.concatenate([platform.T, np.zeros((len(constraints), 6))])
-    return platform @ np.linalg.lstsq(saddle, loads, rcond=1e-14)[0][:count] / size
+    solution = np.linalg.lstsq(saddle, loads, rcond=1e-14)[0]
+    passed = {name: -held @ solution[count:][own_rows] for name, (held, own_rows) in owners.items()}
+    return platform @ solution[:count] / size, passed
 
 
 def textbook(profile, material, length, shear):

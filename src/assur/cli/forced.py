@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,17 @@ from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
+from assur.errors import UsageError
 from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
+from assur.machine.elastic_reactions import elastic_reactions
 from assur.machine.forces import ActuatorForces, force_units
 from assur.machine.masses import masses
 from assur.machine.reactions import Reactions, reactions
+from assur.machine.skeletons import elastic
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.forces import ForcesAnswer, ShownReaction
@@ -30,6 +33,8 @@ from assur.results.plain_text import short
 
 ROUNDED = 1e-12
 AXES = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+Elastic = Mapping[str, NDArray[Any] | None]
+"""Wrenches of joints, force before moment."""
 HELD = (Status.regular, Status.near_singular, Status.serial)
 """Where actuators hold the platform."""
 SAID = {
@@ -57,7 +62,7 @@ def outcome(
     solved = record.forces(pose, velocity, acceleration, wrench, gravity=gravity, mode=mode)
     status = Status(int(solved.status[0]))
     passed = reactions(solved) if status in HELD else None
-    answer = _answer(record, pose, mode, moves, (solved, passed))
+    answer = _answer(record, pose, mode, moves, (solved, passed, _elastic(record, solved) if passed else {}))
     return Outcome(answer, lambda: _shown(record, answer), exit_codes.of_status(status.name))
 
 
@@ -66,9 +71,9 @@ def _answer(
     pose: NDArray[Any],
     mode: str,
     motion: Sequence[NDArray[Any]],
-    both: tuple[ActuatorForces, Reactions | None],
+    solutions: tuple[ActuatorForces, Reactions | None, Elastic],
 ) -> ForcesAnswer:
-    solved, passed = both
+    solved, passed, bent = solutions
     status = Status(int(solved.status[0]))
     metre = METRES[record.unit]
     of_pose = np.array([metre if name in LENGTHS else 1.0 for name in record.platform.pose])
@@ -97,7 +102,7 @@ def _answer(
         bias=plain(solved.bias[0]),
         gravity=plain(solved.gravity[0]),
         growth=plain(solved.growth[0]) if status in HELD else None,
-        reactions=tuple(_reactions(passed)),
+        reactions=tuple(_reactions(passed, bent)),
         unknowns=passed.unknowns if passed else None,
         equations=passed.equations if passed else None,
         rank=passed.rank if passed else None,
@@ -108,15 +113,26 @@ def _answer(
     )
 
 
-def _reactions(passed: Reactions | None) -> Iterable[ShownReaction]:
+def _elastic(record: Mechanism, solved: ActuatorForces) -> Elastic:
+    """What joints pass where links bend, of a file that says what that asks for."""
+    if not any(elastic(record, link) for link in record.links):
+        return {}
+    try:
+        return elastic_reactions(solved)
+    except UsageError:
+        return {}
+
+
+def _reactions(passed: Reactions | None, bent: Elastic) -> Iterable[ShownReaction]:
     for item in passed.joints if passed else ():
+        wrench = bent.get(item.joint)
         yield ShownReaction(
             joint=item.joint,
             force=item.force.tolist(),
             moment=item.moment.tolist(),
             unique=tuple(item.unique.tolist()),
             indeterminate=tuple(row.tolist() for row in item.indeterminate),
-            elastic=None,
+            elastic=None if wrench is None else tuple(wrench.tolist()),
         )
 
 
@@ -248,6 +264,22 @@ def _joints(answer: ForcesAnswer) -> Iterable[RenderableType]:
     if stresses:
         ways = f"{stresses} stresses balance themselves" if stresses > 1 else "1 stress balances itself"
         yield f"* rigid links leave it open: {ways}; the least is shown"
+        yield from _bent_joints(answer, columns)
+
+
+def _bent_joints(answer: ForcesAnswer, columns: Sequence[str]) -> Iterable[RenderableType]:
+    """What the structure makes of reactions that rigid links leave open."""
+    rows = [
+        (item.joint, *(_number(value, True) for value in item.elastic))
+        for item in answer.reactions
+        if item.elastic is not None and not all(item.unique)
+    ]
+    if rows:
+        yield ""
+        yield table(columns, rows, left=("joint",))
+        yield "the same where links bend by their profiles, and drives give way as their actuators do"
+    if rows and any(item.elastic is None for item in answer.reactions):
+        yield "the other joints: rigid links still leave them open"
 
 
 def _clear(value: float | None, size: float) -> str:

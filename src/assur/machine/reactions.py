@@ -72,13 +72,13 @@ def reactions(answer: ActuatorForces) -> Reactions:
     """Reactions in all joints at the first configuration of an answer."""
     record, inertia, motion = answer.record, answer.motion.inertia, answer.motion
     length = motion.length
-    points = _child_points(record, answer.values[:1])
+    points = child_points(record, answer.values[:1])
     screws = inertia.screws[0]
-    wrenches, owners, drives = _unknowns(record, screws, points, length)  # (6, U) at the joints' points
+    wrenches, owners, drives = joint_wrenches(record, screws, points, length)  # (6, U) at the joints' points
     links = [link for link in record.links if link != record.base]
     equations = np.zeros((len(links), 6, len(owners)))
     for column, joint in enumerate(owners):
-        own = _moved(wrenches[:, column], points[joint] / length)
+        own = about_origin(wrenches[:, column], points[joint] / length)
         for link, sense in ((record.joints[joint].child, 1.0), (record.joints[joint].parent, -1.0)):
             if link != record.base:
                 equations[links.index(link), :, column] += sense * own
@@ -94,14 +94,14 @@ def reactions(answer: ActuatorForces) -> Reactions:
     for column, joint in enumerate(owners):
         if record.base in (record.joints[joint].child, record.joints[joint].parent):
             sense = 1.0 if record.joints[joint].child == record.base else -1.0
-            base += sense * _moved(wrenches[:, column], points[joint] / length) * solution[column]
+            base += sense * about_origin(wrenches[:, column], points[joint] / length) * solution[column]
     base[3:] *= length
     efforts = np.array([solution[column] / scale for column, scale in drives])
     actuators = efforts + motion.drives @ (rotors(record) * answer.joint_accelerations[0])
     return Reactions(joints, actuators, base, len(owners), len(right), rank, residual)
 
 
-def _child_points(record: MechanismRecord, values: FloatArray) -> dict[str, FloatArray]:
+def child_points(record: MechanismRecord, values: FloatArray) -> dict[str, FloatArray]:
     """The joints' points (3,) on their children, in m in the base frame."""
     placed, metre = frames(record, values), METRES[record.unit]
     points = {}
@@ -111,7 +111,7 @@ def _child_points(record: MechanismRecord, values: FloatArray) -> dict[str, Floa
     return points
 
 
-def _unknowns(
+def joint_wrenches(
     record: MechanismRecord, screws: FloatArray, points: dict[str, FloatArray], length: float
 ) -> tuple[FloatArray, list[str], list[tuple[int, float]]]:
     """Wrenches (6, U) of the unknowns, forces before moments over the length, their joints, and where drives are.
@@ -140,7 +140,7 @@ def _unknowns(
     return np.array(columns).T, owners, [drives[place] for place in range(len(driven))]
 
 
-def _moved(wrench: FloatArray, point: FloatArray) -> FloatArray:
+def about_origin(wrench: FloatArray, point: FloatArray) -> FloatArray:
     """A wrench (6,) at a point (3,), about the base's origin."""
     return np.concatenate([wrench[:3], wrench[3:] + np.cross(point, wrench[:3])])
 

@@ -84,7 +84,7 @@ def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSk
     _connected(record, link, pairs, len(nodes.points))
     up = data.up if data.up is not None else profile.up
     bars = []
-    for pair in dict.fromkeys(pairs):
+    for pair in pairs:
         along = nodes.points[pair[1]] - nodes.points[pair[0]]
         length = float(np.linalg.norm(along))
         axes = _axes(record, link, along / length, up, profile)

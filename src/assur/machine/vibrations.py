@@ -14,9 +14,9 @@ from scipy.linalg import eigh
 
 from assur.machine.beams import consistent_mass
 from assur.machine.inertia import rotors
-from assur.machine.masses import Masses, RigidBody, bar_weights, masses
+from assur.machine.masses import Masses, bar_weights, masses
 from assur.machine.strains import Strains
-from assur.model.mechanism import MechanismRecord
+from assur.machine.structure_masses import beam_motion, body_motion, rigid_bodies
 
 FloatArray = NDArray[np.float64]
 MASSLESS = 1e-12
@@ -74,52 +74,12 @@ def mass_matrix(state: Strains, known: Masses) -> FloatArray:
         if weights is not None:
             carried = beam_motion(state, place)
             whole += carried.T @ consistent_mass(beam.beam, *weights) @ carried
-    for link, body in known.carried(record.platform.link).items():
-        own_body = lumped(record, link, body, link in own.skeletons)
-        if own_body is not None:
-            moved = body_motion(state, link, own_body)
-            spread = np.zeros((6, 6))
-            turn = state.frames[link][0][0]
-            spread[:3, :3] = turn @ own_body.inertia @ turn.T
-            spread[3:, 3:] = own_body.mass * np.eye(3)
-            whole += moved.T @ spread @ moved
+    for link, body in rigid_bodies(own, known).items():
+        moved, turn = body_motion(state, link, body), state.frames[link][0][0]
+        spread = np.zeros((6, 6))
+        spread[:3, :3] = turn @ body.inertia @ turn.T
+        spread[3:, 3:] = body.mass * np.eye(3)
+        whole += moved.T @ spread @ moved
     joints = np.arange(own.unknowns - len(state.scales), own.unknowns)
     whole[joints, joints] += rotors(record) * state.scales**2
     return whole
-
-
-def lumped(record: MechanismRecord, link: str, body: RigidBody, bends: bool) -> RigidBody | None:
-    """What of a link's mass is a rigid body: all of it, or the payload and a stated body alone where its bars weigh."""
-    if not bends or bar_weights(record, link) is None:
-        return body
-    payload = masses(record).payload
-    return payload if payload is not None and link == record.platform.link else None
-
-
-def body_motion(state: Strains, link: str, body: RigidBody) -> FloatArray:
-    """Angular velocity, and velocity of its centre (6, U), of a body of a link, at the first configuration.
-
-    On a link that bends it is tied to the node that is nearest to its centre.
-    """
-    own = state.structure
-    node = 0
-    if link in own.skeletons:
-        node = int(np.argmin(np.linalg.norm(own.skeletons[link].nodes - body.centre, axis=1)))
-    twist = state.twists(own.bodies.index((link, node)))[0]
-    turn, origin = (part[0] for part in state.frames[link])
-    return _moved(twist, origin + turn @ body.centre - state.point[0], state.length)
-
-
-def beam_motion(state: Strains, place: int) -> FloatArray:
-    """Twist of a beam's first end in the beam's axes, then its strain (12, U), at the first configuration, in SI."""
-    beam = state.structure.beams[place]
-    turn, origin = (part[0] for part in state.frames[beam.link])
-    first = origin + turn @ beam.first - state.point[0]
-    twist = _moved(state.twists(beam.bodies[0])[0], first, state.length)
-    axes = state.beam_axes[0, place].T
-    return np.concatenate([axes @ twist[:3], axes @ twist[3:], state.units[:, None] * state.of_beams[0, place]])
-
-
-def _moved(twist: FloatArray, lever: FloatArray, length: float) -> FloatArray:
-    """A twist (6, U) about another point, in SI units."""
-    return np.concatenate([twist[:3], length * twist[3:] + np.cross(twist[:3], lever, axisb=0, axisa=0, axisc=0)])
