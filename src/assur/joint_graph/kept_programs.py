@@ -25,7 +25,7 @@ KIND = "programs"
 LARGEST = 50_000_000
 """Bytes of an entry; a larger one is none of ours."""
 
-RECORDERS = ("joints", "joint_graph", "kinematics", "model", "numerics")
+RECORDERS = ("joints", "joint_graph", "kinematics", "machine", "model", "numerics")
 """Folders of the code that is recorded, or records: where one of its files changes, older programs count no more."""
 
 

@@ -10,7 +10,9 @@ do no harm. With more drives than freedoms tau is the one of least norm; the res
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,13 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 from assur.kinematics import border
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.acceleration import joints_in_mode
-from assur.kinematics.rates.instantaneous import Instant, instantaneous
-from assur.kinematics.status import NEAR_SINGULAR, Status
+from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.inertia import link_inertia
+from assur.machine.balance import AT_ONCE, NO_FORCES, Asked, balanced, growth, preload, redundant
+from assur.machine.batches import balanced_in_batches
 from assur.machine.loads import Load, load_of
 from assur.machine.masses import all_masses, masses
-from assur.machine.motion import ClosedMotion, closed_motion, drive_units
+from assur.machine.motion import ClosedMotion
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 
@@ -32,6 +34,8 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 ROUNDED = 1e-10
 """Share of the fastest joint's rate below which an input's rate is rounding, and the input at rest."""
+MANY = 400
+"""So many configurations are worth a recorded program."""
 STILL = 1e-6
 """In rad/s2: slower a rod begins to spin by rounding alone."""
 
@@ -51,14 +55,10 @@ class ActuatorForces:
         friction_band: (d,) what holds at rest, either way.
         input_rates: (N, d) m/s or rad/s.
         kinetic_energy, potential_energy, power: (N,) in J and W; NaN where masses are not known.
-        mass_matrix: (N, k, k), bias: (N, k) and gravity: (N, k), per rate of the pose; NaN where masses are not known,
-            and where the pose's rates are not free.
-        growth: (N,) newtons (newton metres) of an actuator per newton (newton metre) at the platform, the largest.
-        preload: (N, d, d - k) forces of redundant drives that balance one another, orthonormal columns.
-        unbalanced: (N,) whether at rest a freedom that nothing drives, as a rod's spin, is left to fall.
-        motion: of the joints, with all that forces are made of.
         joint_rates, joint_accelerations: (N, n) of all joints.
         load: what acts on the platform.
+        rated: (N,) whether there are masses, and the pose's rates are free: else there is no mass matrix in them.
+        moving: whether a motion was asked for.
     """
 
     record: MechanismRecord
@@ -71,16 +71,66 @@ class ActuatorForces:
     kinetic_energy: FloatArray
     potential_energy: FloatArray
     power: FloatArray
-    mass_matrix: FloatArray
-    bias: FloatArray
-    gravity: FloatArray
-    growth: FloatArray
-    preload: FloatArray
-    unbalanced: BoolArray
-    motion: ClosedMotion
     joint_rates: FloatArray
     joint_accelerations: FloatArray
     load: Load
+    rated: BoolArray
+    moving: bool
+
+    @cached_property
+    def motion(self) -> ClosedMotion:
+        """Of the joints, with all that forces are made of: some hundred numbers for each configuration."""
+        return self._asked.motion()
+
+    @property
+    def mass_matrix(self) -> FloatArray:
+        """(N, k, k) per rate of the pose; NaN where masses are not known, and where the pose's rates are not free."""
+        return self._terms[0]
+
+    @property
+    def bias(self) -> FloatArray:
+        """(N, k) what the motion needs that goes on as it is, per rate of the pose; NaN as the mass matrix."""
+        return self._terms[1]
+
+    @property
+    def gravity(self) -> FloatArray:
+        """(N, k) what holds the links against gravity, per rate of the pose; NaN as the mass matrix."""
+        return self._terms[2]
+
+    @cached_property
+    def growth(self) -> FloatArray:
+        """(N,) newtons (newton metres) of an actuator per newton (newton metre) at the platform, the largest."""
+        return np.concatenate([growth(part.motion()) for part in self._asked.parts(AT_ONCE)])
+
+    @cached_property
+    def preload(self) -> FloatArray:
+        """(N, d, r) forces of redundant drives that balance one another, orthonormal columns."""
+        if not redundant(self.record):
+            return np.empty((len(self.values), len(self.record.drives), 0))
+        return np.concatenate([preload(part.motion()) for part in self._asked.parts(AT_ONCE)])
+
+    @property
+    def unbalanced(self) -> BoolArray:
+        """(N,) whether at rest a freedom that nothing drives, as a rod's spin, is left to fall."""
+        return np.asarray((np.linalg.norm(self.joint_accelerations, axis=-1) > STILL) & (not self.moving))
+
+    @cached_property
+    def _terms(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        parts = []
+        for asked, rates in zip(self._asked.parts(AT_ONCE), _few(self.joint_rates), strict=True):
+            motion = asked.motion()
+            across, inertia = np.swapaxes(motion.of_pose, -1, -2), motion.inertia
+            steady = motion.second(rates, np.zeros(rates.shape[:1] + across.shape[1:2]))
+            efforts = np.stack([inertia.needed(rates, steady), inertia.weight], axis=-1)
+            parts.append((across @ inertia.matrix @ motion.of_pose, *np.moveaxis(across @ efforts, -1, 0)))
+        mass, bias, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
+        for part in (mass, bias, weight):
+            part[~self.rated] = np.nan
+        return mass, bias, weight
+
+    @property
+    def _asked(self) -> Asked:
+        return Asked(self.record, self.values, masses(self.record), self.load)
 
     def __str__(self) -> str:
         rows = [
@@ -166,6 +216,7 @@ def forces_at(
 ) -> ActuatorForces:
     """Forces at joint values (N, n), for rates and accelerations (N, k) of the pose in SI units; at rest without.
 
+    Many configurations go through recorded programs, those near singularities through singular values, as few do.
     Where `lost` (N,) is true the joint values stand in for a pose that is not reached.
 
     Errors:
@@ -173,44 +224,19 @@ def forces_at(
     """
     moves = velocity is not None or acceleration is not None
     known = all_masses(record) if load.gravity or moves else masses(record)
-    inertia = link_inertia(record, values, known)
-    motion = closed_motion(inertia, values)
-    instant = instantaneous(record, values)
-    count = (len(values), motion.pose.shape[1])
-    rates = np.zeros(count) if velocity is None else np.broadcast_to(velocity, count)
-    speeding = np.zeros(count) if acceleration is None else np.broadcast_to(acceleration, count)
-    joint_rates = motion.rates(rates)
-    still = motion.second(joint_rates, np.zeros(count))
-    second = motion.second(joint_rates, speeding)
-    weight = inertia.weight if load.gravity else np.zeros_like(second)
-    applied = load.wrench_at(motion.point)
-    pushed = np.einsum("nkj,nk->nj", motion.platform, applied)
-    idle = motion.idle_accelerations(inertia.needed(joint_rates, second) + weight - pushed)
-    second = second + idle
-    needed = inertia.needed(joint_rates, second) + weight - pushed
-    status = _status(instant, moves)
+    shape = len(values), len(rate_names(record.platform.pose))
+    motion = (None if part is None else np.broadcast_to(part, shape) for part in (velocity, acceleration))
+    asked = Asked(record, values, known, load, *motion)
+    answer = balanced(asked) if len(values) < MANY else balanced_in_batches(asked)
+    status, rated = answer.status, answer.rated & (not known.lacking)
     if lost is not None:
         status[lost] = int(Status.unreachable)
-    tau, preload = _balanced(motion, needed)
-    none = np.isin(status, _NO_FORCES)
-    unknown = np.isin(status, (Status.not_closed, Status.unreachable)) | bool(known.lacking)
-    unrated = unknown | instant.singular_input | instant.no_rates
-    gravity = inertia.weight
-    across = np.swapaxes(motion.of_pose, -1, -2)
-    input_rates = joint_rates @ motion.drives.T
-    input_rates[np.abs(input_rates) <= ROUNDED * np.abs(joint_rates).max(axis=-1, keepdims=True)] = (
-        0.0  # friction holds
-    )
+        rated &= ~lost
+    tau = np.where(np.isin(status, NO_FORCES)[:, None], np.nan, answer.forces)
+    input_rates = _input_rates(record, answer.joint_rates)
     band, friction = _friction(record, input_rates)
+    unknown = np.isin(status, (Status.not_closed, Status.unreachable)) | bool(known.lacking)
     missing = np.where(unknown, np.nan, 0.0)
-    at_pose = {
-        "mass_matrix": across @ inertia.matrix @ motion.of_pose,
-        "bias": (across @ inertia.needed(joint_rates, still)[..., None])[..., 0],
-        "gravity": (across @ gravity[..., None])[..., 0],
-    }
-    shapes = {name: part.shape for name, part in at_pose.items()}
-    hidden = {name: np.where(_like(unrated, shapes[name]), np.nan, part) for name, part in at_pose.items()}
-    tau = np.where(none[:, None], np.nan, tau)
     return ActuatorForces(
         record=record,
         values=values,
@@ -219,77 +245,23 @@ def forces_at(
         friction=friction,
         friction_band=band,
         input_rates=input_rates,
-        kinetic_energy=inertia.kinetic(joint_rates) + missing,
-        potential_energy=inertia.potential + missing,
+        kinetic_energy=answer.kinetic_energy + missing,
+        potential_energy=answer.potential_energy + missing,
         power=np.einsum("nd,nd->n", tau, input_rates),
-        growth=_growth(motion),
-        preload=preload,
-        unbalanced=(np.linalg.norm(idle, axis=-1) > STILL) & (not moves),
-        motion=motion,
-        joint_rates=joint_rates,
-        joint_accelerations=second,
+        joint_rates=answer.joint_rates,
+        joint_accelerations=answer.joint_accelerations,
         load=load,
-        **hidden,
+        rated=rated,
+        moving=moves,
     )
 
 
-_NO_FORCES = (
-    Status.parallel,
-    Status.comprehensive,
-    Status.constraint,
-    Status.self_motion,
-    Status.not_closed,
-    Status.unreachable,
-    Status.undecided,
-)
-
-
-def _like(rows: BoolArray, shape: tuple[int, ...]) -> BoolArray:
-    return np.broadcast_to(rows.reshape(-1, *[1] * (len(shape) - 1)), shape)
-
-
-def _status(instant: Instant, moves: bool) -> NDArray[np.int8]:
-    """Of each configuration; one that moves where the pose's rates are not free is not determined."""
-    output, given = instant.singular_output, instant.singular_input
-    status = np.full(output.shape, int(Status.regular), dtype=np.int8)
-    for name in ("output", "closure"):
-        near = np.nan_to_num(instant.measures[name], nan=1.0) < NEAR_SINGULAR
-        status[near] = int(Status.near_singular)
-    status[given] = int(Status.serial)
-    if moves:
-        status[given | instant.no_rates] = int(Status.undecided)
-    status[output] = int(Status.parallel)
-    status[output & given] = int(Status.comprehensive)
-    status[instant.ranks.freedoms > instant.general.freedoms] = int(Status.constraint)
-    status[~instant.closed] = int(Status.not_closed)
-    return status
-
-
-def _balanced(motion: ClosedMotion, needed: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Forces (N, d) of the drives for forces (N, n) of the joint rates, and preload (N, d, r)."""
-    units = drive_units(motion.record)
-    free = np.swapaxes(motion.free, -1, -2)
-    driven = free @ (motion.drives / units[:, None]).T  # (N, n, d)
-    own = (free @ needed[..., None])[..., 0]
-    _, sizes, right = np.linalg.svd(driven, full_matrices=True)
-    rank = np.sum(sizes > 1e-9, axis=-1)
-    usual = int(np.max(rank)) if len(rank) else 0
-    inverse = np.linalg.pinv(driven, rcond=1e-9)
-    tau = (inverse @ own[..., None])[..., 0] / units
-    if driven.shape[-1] > usual:  # least norm in newtons, not in units of the drives
-        scaled = free @ motion.drives.T
-        tau = (np.linalg.pinv(scaled, rcond=1e-9) @ own[..., None])[..., 0]
-        right = np.linalg.svd(scaled, full_matrices=True)[2]
-    preload = np.swapaxes(right[:, usual:], -1, -2)
-    return tau, preload
-
-
-def _growth(motion: ClosedMotion) -> FloatArray:
-    """Largest force (N,) of an actuator per unit force at the platform, moments over the characteristic length."""
-    units = np.repeat([motion.length, 1.0], 3)
-    free = np.swapaxes(motion.free, -1, -2)
-    per_load = np.linalg.pinv(free @ motion.drives.T, rcond=1e-9) @ free @ np.swapaxes(motion.platform, -1, -2) * units
-    return np.asarray(np.max(np.linalg.norm(per_load, axis=-1), axis=-1))
+def _input_rates(record: MechanismRecord, joint_rates: FloatArray) -> FloatArray:
+    """Rates (N, d) of the inputs; one that moves by rounding alone rests, so that friction holds it."""
+    columns = [item.coordinate.index for item in record.drives]
+    rates: FloatArray = joint_rates[:, columns] * np.array([item.sign for item in record.drives])
+    rates[np.abs(rates) <= ROUNDED * np.abs(joint_rates).max(axis=-1, keepdims=True)] = 0.0
+    return rates
 
 
 def _friction(record: MechanismRecord, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -300,3 +272,7 @@ def _friction(record: MechanismRecord, rates: FloatArray) -> tuple[FloatArray, F
         np.array([getattr(item, name) if item else 0.0 for item in known]) for name in ("coulomb", "viscous")
     )
     return coulomb, coulomb * np.sign(rates) + viscous * rates
+
+
+def _few(rows: FloatArray) -> Iterator[FloatArray]:
+    return (rows[first : first + AT_ONCE] for first in range(0, max(len(rows), 1), AT_ONCE))

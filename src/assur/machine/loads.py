@@ -25,6 +25,13 @@ class Load:
         parts = [np.broadcast_to(part, points.shape) for part in (self.moment, self.force)]
         return np.concatenate(parts, axis=-1)
 
+    def part(self, rows: NDArray[np.intp] | slice, count: int) -> Load:
+        """At some of `count` configurations."""
+        force, moment = (
+            np.broadcast_to(own, (count, 3))[rows] if own.ndim > 1 else own for own in (self.force, self.moment)
+        )
+        return Load(force, moment, self.gravity)
+
 
 def load_of(wrench: ArrayLike | None, gravity: bool = True) -> Load:
     """A load of a force (..., 3), or of force and moment (..., 6).

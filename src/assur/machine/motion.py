@@ -90,6 +90,13 @@ class ClosedMotion:
         own = np.swapaxes(self.free, -1, -2) @ self.inertia.matrix @ self.free
         return np.asarray(np.trace(own, axis1=-2, axis2=-1))
 
+    @cached_property
+    def weighing(self) -> NDArray[np.intp]:
+        """How many (N,) of the motions that leave the pose as it is have inertia."""
+        still = self._split[1]
+        sizes = np.linalg.eigvalsh(np.swapaxes(still, -1, -2) @ self.inertia.matrix @ still)
+        return np.asarray(np.sum(sizes > MASSLESS * self._largest[:, None], axis=-1))
+
     def idle_accelerations(self, needed: FloatArray) -> FloatArray:
         """How idle motions speed up (N, n) where forces (N, n) would be needed that nothing exerts."""
         return -self._carried(self.idle, needed[..., None])[..., 0]

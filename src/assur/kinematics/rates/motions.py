@@ -121,15 +121,36 @@ def general_share(record: MechanismRecord) -> float:
     return float(np.max(values[:, int(general(record).closure) - 1] / values[:, 0]))
 
 
+def closure_share(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """The closure's smallest singular value that counts, over the largest, as a share (...) of what it is around home.
+
+    It is 0 where the closure loses rank at joint values (..., n).
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> 0.5 < float(closure_share(record, around_home(record)[0])) <= 1.0
+    True
+    """
+    closure = closure_jacobian(record, values) * joint_units(record)
+    sizes = np.linalg.svd(closure, compute_uv=False)
+    return np.asarray(sizes[..., int(general(record).closure) - 1] / sizes[..., 0] / general_share(record))
+
+
 @lru_cache(maxsize=64)
 def _around_home(record: MechanismRecord) -> InstantaneousMotion:
     """The motion at home and at assemblies near it."""
+    return motions(record, around_home(record), RANK_GAP)
+
+
+@lru_cache(maxsize=64)
+def around_home(record: MechanismRecord) -> FloatArray:
+    """Joint values (N, n) of home and of assemblies near it."""
     home = home_values(record)
     at_home = motions(record, home, RANK_GAP)
     random = np.random.default_rng(0).normal(size=(len(AROUND_HOME), SAMPLES, len(home)))
     away = np.array(AROUND_HOME)[:, None, None] * random @ at_home.null.T * at_home.scale
     near = assemble(record, (home + away).reshape(-1, len(home)))
-    return motions(record, np.concatenate([home[None], near.values[near.closed]]), RANK_GAP)
+    return np.concatenate([home[None], near.values[near.closed]])
 
 
 def motions(record: MechanismRecord, values: FloatArray, threshold: float | None = None) -> InstantaneousMotion:
