@@ -35,6 +35,9 @@ UNLIKE = {
     "five-bar with a driven slider": ["P[x] R[z]", "P[y] R[z] R[z]"],
     "a sign that is a product of roots": ["C[x] R[x] R[x]", "R[y] R[y] C[y]", "P[z] R[z] R[z] R[z]"],
     "parallelograms in another order": [LOOPED, "P[y] P(4R)[x] P(4R)[y]"],
+    "parallelograms across each other, sliders along the last": [
+        "{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z] R[z]", "P[z] P(4R)[y] P(4R)[z]",
+    ],
     "an oblique axis": ["C[x] R[x] R[x]", "C[z] R[z] R[z]", "C[1,1,0] R[1,1,0] R[1,1,0]"],
     "a slider after a crank": ["R[y] R[y] P[z]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "limbs at angles that are parameters": ["P[1,0,0] P(4S)[y]", "P[-1,2,0] P(4S)[2,1,0]", "P[-1,-2,0] P(4S)[-2,1,0]"],
@@ -42,7 +45,7 @@ UNLIKE = {
     "an Orthoglide": ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
     "hinges along short links": ["P[y] R[z] P(4R)[x] R[z]", "C[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
-}
+}  # fmt: skip
 APART = 1e-6
 
 

@@ -25,9 +25,9 @@ BoolArray = NDArray[np.bool_]
 AWAY, SAMPLES = 0.1, 24
 """How far assemblies about home are from it, in rad or characteristic lengths, and how many are looked at."""
 
-STILL, OTHER = 1e-7, 1e-2
+STILL, OTHER = 1e-7, 1e-3
 """What changes by less about home stands still; what is further from its value there is another. Cosines, lengths in
-characteristic lengths. Five digits lie between, so that neither rounding nor a small motion is taken for one."""
+characteristic lengths. Four digits lie between, so that neither rounding nor a small motion is taken for one."""
 
 
 def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
@@ -50,13 +50,25 @@ def _still(record: MechanismRecord) -> tuple[list[str], BoolArray, FloatArray]:
     """
     home = home_values(record)
     there = motions(record, home, RANK_GAP)
-    random = np.random.default_rng(0).normal(size=(SAMPLES, len(home)))
-    found = assemble(record, home + AWAY * random @ there.null.T * there.scale)
-    near = found.values[found.closed]
+    near = assemblies_about_home(record, SAMPLES)
     names, values = _places(record, np.concatenate([home[None], near]))
     ranks = motions(record, near, RANK_GAP).ranks.closure if len(near) else np.array([])
     usual = len(near) > SAMPLES // 2 and bool(np.all(ranks == there.ranks.closure))
     return names, np.asarray((np.ptp(values, axis=0) < STILL) & usual), values[0]
+
+
+def assemblies_about_home(record: MechanismRecord, count: int) -> FloatArray:
+    """Assemblies (N, n) some tenth of a rad or of the characteristic length from home: at most so many.
+
+    >>> from assur.model.registry import load_record
+    >>> assemblies_about_home(load_record("fivebar"), 6).shape
+    (6, 5)
+    """
+    home = home_values(record)
+    there = motions(record, home, RANK_GAP)
+    random = np.random.default_rng(0).normal(size=(count, len(home)))
+    near = assemble(record, home + AWAY * random @ there.null.T * there.scale)
+    return near.values[near.closed]
 
 
 def _places(record: MechanismRecord, joints: FloatArray) -> tuple[list[str], FloatArray]:

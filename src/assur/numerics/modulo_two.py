@@ -25,3 +25,25 @@ def independent(rows: BoolArray) -> list[int]:
             basis.append(left)
             answer.append(number)
     return answer
+
+
+def residues_of_sums(rows: BoolArray, width: int) -> BoolArray:
+    """Of rows (N, k) that are sums of rows before them in the first columns what is left in the others (N, k - width).
+
+    Of rows that are no such sums nothing is.
+
+    >>> residues_of_sums(np.array([[True, True], [True, False], [True, True]]), 1).ravel()
+    array([False,  True, False])
+    """
+    basis: list[BoolArray] = []
+    answer = np.zeros((len(rows), rows.shape[1] - width), dtype=bool)
+    for number, row in enumerate(rows):
+        left = row.copy()
+        for known in basis:
+            if left[np.argmax(known)]:
+                left ^= known
+        if np.any(left[:width]):
+            basis.append(left)
+        else:
+            answer[number] = left[width:]
+    return answer

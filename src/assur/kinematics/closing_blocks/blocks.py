@@ -19,7 +19,16 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.kinematics.closing_blocks.chains import FreeChain, FreeJoint, chains, in_loops, joined, loops, nodes
+from assur.kinematics.closing_blocks.chains import (
+    FreeChain,
+    FreeJoint,
+    chains,
+    in_loops,
+    joined,
+    loops,
+    nodes,
+    shortest,
+)
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import told_by_turns
@@ -170,9 +179,8 @@ def loop_blocks(record: MechanismRecord) -> tuple[ClosingBlock, ...]:
     [('A1', 'A2', 'B1', 'B2', 'P')]
     """
     graph = joint_graph(record)
-    loops_of = [{cut.name: 1, **loop} for cut, loop in zip(graph.cut, graph.loops, strict=True)]
     answer = []
-    for loop in loops_of:
+    for loop in shortest([{cut.name: 1, **loop} for cut, loop in zip(graph.cut, graph.loops, strict=True)]):
         columns = [(k, item.joint) for k, item in enumerate(record.coordinates) if item.joint in loop]
         names = tuple(name for name in record.joints if name in loop)
         answer.append(ClosingBlock(names, (loop,), tuple(k for k, _ in columns), tuple(name for _, name in columns)))

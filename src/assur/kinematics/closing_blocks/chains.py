@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from assur.model.mechanism import MechanismRecord
 
@@ -115,6 +116,24 @@ def loops(joints: Sequence[FreeJoint]) -> Iterator[Mapping[str, int]]:
         first, second = (paths[end] for end in joint.ends)
         back = {name: first.get(name, 0) - second.get(name, 0) for name in first | second}
         yield {joint.name: 1, **{name: sense for name, sense in back.items() if sense}}
+
+
+def shortest(loops_of: Sequence[Mapping[str, int]]) -> list[Mapping[str, int]]:
+    """Independent loops as others, of fewer joints: sums and differences of two of them, as long as one is shorter.
+
+    >>> shortest([{"A": 1, "B": 1, "C": 1}, {"B": 1, "C": 1, "D": -1, "E": 1}])
+    [{'A': 1, 'B': 1, 'C': 1}, {'D': -1, 'E': 1, 'A': -1}]
+    """
+    answer = [*loops_of]
+    while True:
+        for (k, own), (other, sense) in product(enumerate(answer), product(answer, (1, -1))):
+            joined_loop = {name: own.get(name, 0) + sense * other.get(name, 0) for name in (*own, *other)}
+            shorter = {name: value for name, value in joined_loop.items() if value}
+            if other is not own and len(shorter) < len(own) and all(abs(value) == 1 for value in shorter.values()):
+                answer[k] = shorter
+                break
+        else:
+            return answer
 
 
 def _other(joint: FreeJoint, node: str) -> str:

@@ -12,10 +12,11 @@ from assur.joint_graph.frames import Frame, frames, screws
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
-from assur.kinematics.closure import RANK_GAP, assemble
+from assur.kinematics.closure import RANK_GAP, Assembly, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import whole_orientation
 from assur.kinematics.rates.motions import general, general_share, motions
+from assur.kinematics.related import closed_as_related
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
@@ -55,14 +56,21 @@ def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
     home, rng = home_values(record), np.random.default_rng(0)
     far = by_chance(record, STARTS, rng)
     near = home + AROUND * (by_chance(record, STARTS, rng) - home)
-    closed = assemble(record, np.concatenate([near, far]), far=True)
+    values = _sound(record, home[None], assemble(record, np.concatenate([near, far]), far=True))
+    if len(values) < len(near) + STARTS // 2:  # loops seldom close as about home
+        values = _sound(record, values, closed_as_related(record, far))
+    return values
+
+
+def _sound(record: MechanismRecord, known: FloatArray, closed: Assembly) -> FloatArray:
+    """Known assemblies (K, n), home first, and those that close to all digits, are regular and as about home."""
     sound = closed.residual <= TO_ALL_DIGITS * characteristic_length(record)
-    values = np.concatenate([home[None], closed.values[sound]])
+    values = np.concatenate([known, closed.values[sound]])
     at = motions(record, values, RANK_GAP)
     least = at.values[:, int(general(record).closure) - 1] / at.values[:, 0]
     regular = (least > NEAR_SINGULAR * general_share(record)) | (np.arange(len(values)) == 0)
     moving = at.ranks.freedoms >= len(record.inputs)
-    alike = np.array([not other for other in otherwise(record, values)])
+    alike = np.array([not other for other in otherwise(record, values)], dtype=bool)
     return np.asarray(values[regular & moving & alike])
 
 

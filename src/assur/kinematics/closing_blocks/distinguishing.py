@@ -22,6 +22,7 @@ from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closing_blocks.chains import nodes
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.folds import differing_at_folds
+from assur.kinematics.closing_blocks.namesakes import namesakes
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors
 from assur.kinematics.closure import assemble
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
@@ -32,7 +33,7 @@ from assur.kinematics.search import numbered
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.modulo_two import independent
+from assur.numerics.modulo_two import independent, residues_of_sums
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -100,15 +101,15 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     answers = [_Solutions.of(ordered, values, known) for values in _solved(ordered, problem, _targets(ordered, known))]
     joined = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
-    columns = [[np.prod(answer.signs[:, chosen], axis=1) for answer in answers] for chosen in joined]
-    moving = {k for k, factor in enumerate(known) if isinstance(factor, BlockSign) and factor.moving}
-    # a flat parallelogram is no singularity of the direct problem of those that stay such
-    last = [problem == "direct" and bool(moving & {*chosen}) for chosen in joined]
-    order = [*_separating(columns, [answer.solution for answer in answers], last)]
+    apart = np.concatenate([answer.apart(joined) for answer in answers])
     near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
+    last = [problem == "direct" and flat for flat in _flat_loops(known, joined, ScrewColumns(ordered, near))]
+    order = [*_separating(apart.T, last)]
     merging = differing_at_folds(ordered, problem, signs, near, order)
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
+    unnamed = namesakes(ordered, problem, signs, near, order)
+    order += _separating(unnamed.T, last)
     return tuple(
         ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)
     )
@@ -145,6 +146,13 @@ class _Solutions:
         first = np.unique(self.solution, return_index=True)[1]
         same = np.searchsorted(self.solution[first], self.solution)
         return np.unique(self.signs != self.signs[first][same], axis=0)
+
+    def apart(self, joined: Sequence[Sequence[int]]) -> NDArray[np.bool_]:
+        """Which products (P, k) of signs differ between two solutions, of all pairs."""
+        own = self.signs[np.unique(self.solution, return_index=True)[1]]
+        products = np.array([np.prod(own[:, chosen], axis=1) for chosen in joined]).reshape(len(joined), len(own)).T
+        first, second = np.triu_indices(len(own), 1)
+        return np.asarray(products[first] != products[second])
 
 
 def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
@@ -280,20 +288,34 @@ def _joined_where_alike(differing: NDArray[np.bool_], count: int) -> list[list[i
     return answer
 
 
-def _separating(
-    columns: Sequence[Sequence[SignArray]], solutions: Sequence[IntArray], last: Sequence[bool]
-) -> Iterator[int]:
-    """The columns that tell most pairs of solutions apart that those before them did not, until none tells more.
+def _flat_loops(known: Sequence[Factor], joined: Sequence[Sequence[int]], screws: ScrewColumns) -> list[bool]:
+    """Which products of factors change where a loop that moves by itself is flat: by its sign, or that of a whole.
 
-    Those of `last` come where no other tells more.
+    A flat parallelogram is no singularity of the direct problem of those that stay such.
     """
-    firsts = [np.unique(solution, return_index=True)[1] for solution in solutions]
-    pairs = [np.triu_indices(len(rows), 1) for rows in firsts]
-    apart = [
-        np.concatenate([own[rows][a] != own[rows][b] for own, rows, (a, b) in zip(column, firsts, pairs, strict=True)])
-        for column in columns
-    ]
-    left = np.ones(sum(len(a) for a, _ in pairs), dtype=bool)
+    signs = factor_signs(known, screws)
+    rows = signs[np.all(signs != 0, axis=1)].T < 0
+    moving = [k for k, factor in enumerate(known) if isinstance(factor, BlockSign) and factor.moving]
+    plain = sorted({*range(len(known))} - {*moving}, key=lambda k: _unknown_rates(known[k]))
+    of_moving = np.equal.outer(np.arange(len(known)), moving)
+    rests = residues_of_sums(np.concatenate([rows, of_moving], axis=1)[[*moving, *plain]], rows.shape[1])
+    flat = {*moving, *(k for k, rest in zip(plain, rests[len(moving) :], strict=True) if np.any(rest))}
+    return [bool(flat & {*chosen}) for chosen in joined]
+
+
+def _unknown_rates(factor: Factor) -> int:
+    """How many rates a factor is the determinant of."""
+    return factor.rates.shape[1] if isinstance(factor, BlockSign) else 0
+
+
+def _separating(apart: NDArray[np.bool_], last: Sequence[bool]) -> Iterator[int]:
+    """The signs that tell most pairs apart that those before them did not, until none tells more.
+
+    Args:
+        apart: whether each sign differs in each pair (s, P).
+        last: which signs come where no other tells more.
+    """
+    left = np.ones(apart.shape[1], dtype=bool)
     for later in (False, True):
         own = [k for k, late in enumerate(last) if late == later]
         while np.any(left) and own:
