@@ -29,7 +29,11 @@ if TYPE_CHECKING:
     from assur.kinematics.following.path import Path as Way
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
+    from assur.machine.dynamics import MotionForces
     from assur.machine.forces import ActuatorForces
+    from assur.machine.free_motion import FreeMotion
+    from assur.machine.prescribed_motion import PrescribedMotion
+    from assur.machine.release import Release
     from assur.machine.stiffness import Stiffness
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
@@ -112,6 +116,18 @@ class Mechanism(MechanismRecord):
         from assur.machine.stiffness import stiffness
 
         return stiffness(self, poses, mode, shear=shear)
+
+    def dynamics(self, motion: PrescribedMotion, mode: str | None = None, **options: Any) -> MotionForces:
+        """Forces of the actuators along a motion in time: see `assur.machine.dynamics.dynamics` for the options."""
+        from assur.machine.dynamics import dynamics
+
+        return dynamics(self, motion, mode, **options)
+
+    def free_motion(self, release: Release, mode: str | None = None, **options: Any) -> FreeMotion:
+        """The motion from a start by given forces: see `assur.machine.free_motion.free_motion` for the options."""
+        from assur.machine.free_motion import free_motion
+
+        return free_motion(self, release, mode, **options)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""

@@ -14,6 +14,7 @@ from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
 from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
 from assur.results.answers.derivation import DerivationAnswer, VerifiedDerivation
+from assur.results.answers.dynamics import DynamicsAnswer
 from assur.results.answers.files import (
     EndedView,
     WrittenExport,
@@ -55,6 +56,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "derive": (DerivationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
+    "dynamics": (DynamicsAnswer,),
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+from assur.cli.options import SHARED_DEFAULTS, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
 
 
 def forces(
@@ -18,11 +18,8 @@ def forces(
         Parameter(consume_multiple=1, metavar="X Y Z", help="The pose; with --capacity home's if left out."),
     ] = (),
     mode: WorkingMode = None,
-    load: Annotated[
-        str | None,
-        Parameter(metavar="FX,FY,FZ[,MX,MY,MZ]", help="Force [N] and moment [N m] on the platform at its point."),
-    ] = None,
-    no_gravity: Annotated[bool, Parameter(help="Leave gravity aside.")] = False,
+    load: Load = None,
+    no_gravity: NoGravity = False,
     velocity: Annotated[
         tuple[str, ...],
         Parameter(consume_multiple=1, metavar="VX VY VZ", help="Rates of the pose, per second; 0 if left out."),
@@ -54,7 +51,7 @@ def forces(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import forced
-    from assur.cli.numbers import number, numbers
+    from assur.cli.numbers import numbers, wrench
     from assur.errors import UsageError
     from assur.kinematics.answers.at_border import pose_from_border
     from assur.model.pose import rate_names
@@ -79,8 +76,4 @@ def forces(
         numbers(given, names, f"{what} of {record.name}") if given else [0.0] * len(names)
         for given, what in ((velocity, "velocity"), (acceleration, "acceleration"))
     ]
-    texts = load.split(",") if load is not None else ["0"] * 3
-    if len(texts) not in (3, 6):
-        raise UsageError(f"--load: {len(texts)} values", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
-    wrench = [number(text, "--load") for text in texts]
-    return forced.outcome(record, place, mode, wrench, not no_gravity, rates)
+    return forced.outcome(record, place, mode, wrench(load), not no_gravity, rates)

@@ -60,6 +60,18 @@ def numbers(texts: Sequence[str], names: Sequence[str], what: str) -> list[float
     return [number(text, name) for name, text in zip(names, texts, strict=True)]
 
 
+def wrench(text: str | None) -> list[float]:
+    """Force and moment of `--load`, in N and N m; none where nothing is given.
+
+    >>> wrench("0,0,-100")
+    [0.0, 0.0, -100.0]
+    """
+    texts = text.split(",") if text is not None else ["0"] * 3
+    if len(texts) not in (3, 6):
+        raise UsageError(f"--load: {len(texts)} values", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
+    return [number(part, "--load") for part in texts]
+
+
 def parts(texts: Iterable[str], option: str) -> list[str]:
     """What stands between commas, of texts that each are NAME=VALUE, or several, or begin with what has no name.
 

@@ -36,6 +36,13 @@ WorkingMode = Annotated[
     str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
 ]
 
+Load = Annotated[
+    str | None,
+    Parameter(metavar="FX,FY,FZ[,MX,MY,MZ]", help="Force [N] and moment [N m] on the platform at its point."),
+]
+
+NoGravity = Annotated[bool, Parameter(help="Leave gravity aside.")]
+
 Box = Annotated[
     tuple[str, ...],
     Parameter(metavar="NAME=LOW:HIGH,..", help="Where to look along coordinates; the file's box if left out."),

@@ -69,16 +69,21 @@ class Stop:
     size: float | None = None
 
     def __str__(self) -> str:
-        parts = [f"stopped at {100 * self.share:.6g} % of the way before {WORDS[self.kind]}"]
+        begun = f"stopped at {100 * self.share:.6g} % of the way before {WORDS[self.kind]}"
         if self.share == 0.0 and self.kind in SINGULARITIES and abs(self.value) <= SINGULAR:
-            parts = [f"the start is at {WORDS[self.kind]}, which no one way leaves: begin beside it"]
-        parts.append(f"{self.quantity} is {self.value:.3g}{' already' if self.value < 0 else ''}")
+            begun = f"the start is at {WORDS[self.kind]}, which no one way leaves: begin beside it"
+        return "; ".join([begun, *self.reasons])
+
+    @property
+    def reasons(self) -> list[str]:
+        """What goes to zero at the place, what that means, and what lies beyond."""
+        parts = [f"{self.quantity} is {self.value:.3g}{' already' if self.value < 0 else ''}"]
         if self.factor:
             parts.append(f"{self.factor} -> 0: {self.meaning}")
         if self.turns_back:
             ahead = "another assembly lies" if self.gap == 0.0 else f"a gap of {self.gap:.3g} remains"
             parts.append(f"the branch ends here, and a little further on {ahead}")
-        return "; ".join(parts)
+        return parts
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,0 +1,68 @@
+"""`assur dynamics`: forces along a motion in time, and the motion by given forces."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
+
+ENDINGS = (".csv", ".png", ".pdf", ".svg")
+
+
+def dynamics(
+    mechanism: MechanismName,
+    /,
+    *,
+    motion: Annotated[
+        str | None, Parameter(metavar="FILE", help="The motion, a .toml file with [harmonic], [samples] or [forces].")
+    ] = None,
+    forward: Annotated[
+        bool, Parameter(help="Let the mechanism run by the forces of the file, or by those that its motion asks for.")
+    ] = False,
+    mode: WorkingMode = None,
+    load: Load = None,
+    no_gravity: NoGravity = False,
+    no_limits: Annotated[bool, Parameter(help="Leave strokes of inputs and limits of joints aside.")] = False,
+    output: Annotated[
+        str | None,
+        Parameter(
+            name=("-o", "--output"), metavar="FILE", help="Rows by moments as .csv, or a figure as .png, .pdf or .svg."
+        ),
+    ] = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """Forces of the actuators along a motion in time, and motions by forces.
+
+    The file has the pose in the mechanism's units: [harmonic] centre, amplitude,
+    omega [rad/s], phase [rad] with pose = centre + amplitude sin(omega t + phase),
+    or [samples] t, pose. It is followed in one mode; where it leaves that, the
+    workspace or the limits of the file it is refused, with the moment and the
+    margin. Answers: peak and rms of each actuator and its share of the limits of
+    force, speed and power. With --forward the equation of motion is integrated,
+    loops closed at every step, from rest at pose = .. until t_end = .., by
+    constant [forces] or by t and values in it; a limit or a singularity ends it.
+    Exit code 6: it ended before its end; 4: the mode does not reach the start.
+
+    For example:
+        assur dynamics delta_4s --motion circle.toml -o forces.csv
+        assur dynamics zeng2019 --motion fall.toml --forward
+    """
+    record = shared.mechanism(mechanism)
+    from pathlib import Path
+
+    from assur.cli.numbers import wrench
+    from assur.errors import UsageError
+
+    mode = mode or record.modes.default_working
+    acting = wrench(load), not no_gravity
+    if motion is None:
+        raise UsageError("--motion is missing", hint="--motion motion.toml, with [harmonic], [samples] or [forces]")
+    from assur.cli import timed
+    from assur.cli.paths import output_file
+    from assur.machine.motion_file import read_motion
+
+    path = output_file(output, ENDINGS) if output is not None else None
+    read = read_motion(record, Path(motion))
+    return timed.outcome(record, read, mode, acting, forward=forward, use_limits=not no_limits, path=path)

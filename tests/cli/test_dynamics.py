@@ -1,0 +1,98 @@
+"""`assur dynamics`: the same as the library says, in SI units, as JSON, rows, figures and words; refusals."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import assur
+from assur.machine.motion_file import read_motion
+
+CIRCLE = (
+    "[harmonic]\ncentre = [-15, 10, 400]\namplitude = [20, 30, 0]\nomega = 6\nphase = [0, 1.5707963, 0]\ncount = 9\n"
+)
+HIGH = "[harmonic]\ncentre = [-15, 10, 456]\namplitude = [0, 0, 60]\nomega = 3\n"
+FALL = "pose = [-15, 10, 400]\nt_end = 0.02\ncount = 4\n"
+
+
+@pytest.fixture
+def written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, text in (("circle", CIRCLE), ("high", HIGH), ("fall", FALL), ("broken", "[samples]\nt = [0]\n")):
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+def test_numbers_are_those_of_the_library_in_si_units(assur_cli, written):
+    run = assur_cli("dynamics", "zeng2019", "--motion", "circle.toml", "--load", "0,0,-10", "--json")
+    record = assur.load("zeng2019")
+    answer = record.dynamics(read_motion(record, written / "circle.toml").prescribed, load=[0, 0, -10])
+    data = run.json
+    assert (run.code, data["status"], data["mode"], data["forward"]) == (0, "regular", "++-++", False)
+    np.testing.assert_allclose(data["actuator_forces"], answer.forces)
+    np.testing.assert_allclose(data["pose"], answer.poses / 1e3)
+    np.testing.assert_allclose(data["inputs"], answer.inputs / 1e3)
+    np.testing.assert_allclose(data["peak"], np.abs(answer.forces).max(axis=0))
+    np.testing.assert_allclose(data["rms"], answer.rms)
+    np.testing.assert_allclose(data["utilisation"]["force"], answer.peak / 60.0)
+    assert data["utilisation_with_friction"]["force"] != data["utilisation"]["force"]
+    assert (len(data["t"]), data["stopped"], data["units"]["pose"]) == (9, None, "m, m, m")
+    assert data["units"].keys() <= data.keys()
+
+
+def test_a_person_sees_what_the_motors_need(assur_cli, written):
+    out = assur_cli("dynamics", "zeng2019", "--motion", "circle.toml").out
+    for word in ("forces along a motion", "yA1", "peak", "rms", "of limit*", "* with friction", "9 moments", "0.02"):
+        assert word in out
+
+
+def test_rows_are_written_as_csv_and_curves_as_a_figure(assur_cli, written):
+    assert assur_cli("dynamics", "zeng2019", "--motion", "circle.toml", "-o", "rows.csv").code == 0
+    with (written / "rows.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    data = assur_cli("dynamics", "zeng2019", "--motion", "circle.toml", "-o", "curves.svg", "--json").json
+    assert [float(row["force yA2"]) for row in rows] == [row[1] for row in data["actuator_forces"]]
+    assert [float(row["kinetic energy"]) for row in rows] == data["kinetic_energy"]
+    assert data["files"] == ["curves.svg"]
+    assert (written / "curves.svg").read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_a_motion_that_leaves_is_refused_with_the_moment_and_the_margin(assur_cli, written):
+    run = assur_cli("dynamics", "zeng2019", "--motion", "high.toml", "-o", "rows.csv", "--json")
+    stopped = run.json["stopped"]
+    assert (run.code, run.json["status"], run.json["t"], run.json["peak"]) == (6, "serial", [], [None] * 3)
+    assert stopped["kind"] == "serial"
+    assert 0.0 < stopped["time"] < 0.2
+    assert 0.0 <= stopped["margin"] < 1e-4
+    assert not (written / "rows.csv").exists()
+    said = assur_cli("dynamics", "zeng2019", "--motion", "high.toml").out
+    assert "refused" in said
+    assert "A3, B3, C3 are collinear" in said
+
+
+def test_forces_given_move_the_mechanism_forward(assur_cli, written):
+    run = assur_cli("dynamics", "zeng2019", "--motion", "fall.toml", "--forward", "--json")
+    data = run.json
+    assert (run.code, data["status"], data["forward"], data["deviation"]) == (0, "regular", True, None)
+    assert data["energy_drift"] <= 1e-9
+    assert data["loop_gap"] <= 1e-10
+    assert data["pose"][-1][2] < data["pose"][0][2]
+    assert "energy from nowhere" in assur_cli("dynamics", "zeng2019", "--motion", "fall.toml", "--forward").out
+    alone = assur_cli("dynamics", "zeng2019", "--motion", "fall.toml")
+    assert (alone.code, "add --forward" in alone.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "code"),
+    [
+        ((), "--motion is missing", 2),
+        (("--motion", "none.toml"), "none.toml", 2),
+        (("--motion", "broken.toml"), "broken.toml:2: samples.t", 3),
+        (("--motion", "circle.toml", "-o", "rows.txt"), "its ending is none of", 2),
+        (("--motion", "circle.toml", "--load", "1,2"), "--load: 2 values", 2),
+    ],
+)
+def test_wrong_words_are_told(assur_cli, written, words, said, code):
+    run = assur_cli("dynamics", "zeng2019", *words)
+    assert run.code == code
+    assert said in run.err
