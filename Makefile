@@ -61,6 +61,7 @@ bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs
 	    $(BIN)/python bench/page.py; fi
 	$(BIN)/python bench/others.py
 	$(BIN)/python bench/derived.py
+	$(BIN)/python bench/dynamics.py
 
 format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
 	$(BIN)/ruff check --fix .

@@ -110,3 +110,19 @@ def test_links_that_bend_decide_what_rigid_ones_leave_open(assur_cli):
         rigid, sure = np.array([*item["force"], *item["moment"]]), np.array(item["unique"])
         assert np.array(item["elastic"])[sure] == pytest.approx(rigid[sure])
     assert "the same where links bend by their profiles" in assur_cli(*words).out
+
+
+def test_near_a_singularity_it_is_told_who_bears_and_which_joint_moves(assur_cli):
+    near, there = (
+        assur_cli(
+            "forces", "fivebar", "--set", "l2=150", "--pose", "0", y, "--mode=-+", "--no-gravity", *LOAD, "--json"
+        )
+        for y in ("60.01", "60")
+    )
+    assert near.json["status"] == "near_singular"
+    assert "along (0, 1, 0) and about (0, 0, 1) asks theta1 and theta2 for up to 636.481 N" in near.json["notes"][0]
+    assert "joint P moves most" in near.json["notes"][0]
+    assert near.json["weakest"]["moved"] == pytest.approx(1.6667e-4, rel=1e-3)
+    assert there.json["status"] == "parallel"
+    assert there.json["actuator_forces"] == [None, None]
+    assert "grows as one over the distance" in there.json["notes"][1]

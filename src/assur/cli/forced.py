@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.console import RenderableType
 
-from assur.cli import exit_codes
+from assur.cli import exit_codes, weak
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
@@ -38,7 +38,6 @@ Elastic = Mapping[str, NDArray[Any] | None]
 HELD = (Status.regular, Status.near_singular, Status.serial)
 """Where actuators hold the platform."""
 SAID = {
-    "near_singular": "near a singularity: forces grow, see the largest per unit load",
     "serial": "the pose's rates are not free here: no mass matrix, bias and gravity per rate of the pose",
     "parallel": "the actuators do not hold the platform here: near it forces grow without bound",
     "comprehensive": "neither do the actuators hold the platform, nor is the pose free",
@@ -102,6 +101,7 @@ def _answer(
         bias=plain(solved.bias[0]),
         gravity=plain(solved.gravity[0]),
         growth=plain(solved.growth[0]) if status in HELD else None,
+        weakest=weak.shown(solved),
         reactions=tuple(_reactions(passed, bent)),
         unknowns=passed.unknowns if passed else None,
         equations=passed.equations if passed else None,
@@ -140,6 +140,7 @@ def _notes(record: Mechanism, solved: ActuatorForces) -> Iterable[str]:
     status = Status(int(solved.status[0])).name
     if status in SAID:
         yield SAID[status]
+    yield from weak.notes(solved)
     if solved.preload.shape[-1]:
         yield "more drives than freedoms: the forces of least norm; preload may be added"
     if solved.unbalanced[0] and status in ("regular", "near_singular", "serial"):
@@ -175,6 +176,7 @@ def _units(record: Mechanism) -> dict[str, str]:
         "bias": of_pose,
         "gravity": of_pose,
         "growth": "N or N m per N; moments of the load over the characteristic length",
+        "weakest": "1; lengths in characteristic lengths",
         "reactions": "force N, moment N m",
     }
 

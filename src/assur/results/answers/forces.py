@@ -27,11 +27,27 @@ class ShownReaction:
 
 
 @dataclass(frozen=True)
+class ShownWeakness:
+    """The motion of the platform that its actuators hold least.
+
+    `twist` is the velocity of the platform's point, then the angular velocity times the characteristic length, of unit
+    size; `moved` how fast the actuators move then (0: not at all); `actuators` in which ratio they bear a load against
+    it; `joint` moves most.
+    """
+
+    twist: Numbers
+    moved: float
+    actuators: Numbers
+    joint: str
+
+
+@dataclass(frozen=True)
 class ForcesAnswer(AnswerOfMechanism):
     """Forces of the actuators at a pose, energies, the terms of the equation of motion, reactions in the joints.
 
     Numbers that do not exist are null: those of masses where the file has none, all forces where the mechanism is
-    singular. `growth` is the largest force of an actuator per unit force at the platform; `units` are by field.
+    singular. `growth` is the largest force of an actuator per unit force at the platform, `weakest` where they hold
+    least; `units` are by field.
     """
 
     pose: Numbers
@@ -55,6 +71,7 @@ class ForcesAnswer(AnswerOfMechanism):
     bias: Row
     gravity: Row
     growth: float | None
+    weakest: ShownWeakness | None
     reactions: tuple[ShownReaction, ...]
     unknowns: int | None
     equations: int | None

@@ -1,0 +1,72 @@
+"""What is said of forces at and near singularities: which actuators and which joint, and how forces grow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from assur.kinematics.status import Status
+from assur.machine.forces import ActuatorForces
+from assur.machine.weakness import Weakness, loosest, unfelt, weakness
+from assur.results.answers.forces import ShownWeakness
+from assur.results.plain_text import short
+
+FELT = 0.1
+"""Share of the largest that an actuator bears, so that it is named."""
+WEAK = 1e-2
+"""Where the actuators move by less than this while the platform moves by one, they are what is weak, else the loops."""
+ALONE = ("unreachable", "not_closed")
+"""Where there is nothing to look at."""
+
+
+def shown(solved: ActuatorForces) -> ShownWeakness | None:
+    """As data, of the first configuration."""
+    if Status(int(solved.status[0])).name in ALONE:
+        return None
+    own = weakness(solved.motion)
+    return ShownWeakness(tuple(own.twist.tolist()), own.moved, tuple(own.drives.tolist()), own.joint)
+
+
+def notes(solved: ActuatorForces) -> Iterator[str]:
+    """As sentences; none where nothing is near."""
+    status = Status(int(solved.status[0])).name
+    if status == "near_singular":
+        own = weakness(solved.motion)
+        if own.moved > WEAK:
+            joint = loosest(solved.motion)
+            yield f"near a singularity: the loops nearly lose a constraint and reactions grow; joint {joint} moves most"
+            return
+        yield (
+            f"near a singularity: a load that moves the platform {_moves(own)} asks {_bearing(solved, own)} for up to "
+            f"{short(float(solved.growth[0]))} N or N m for each newton, half as far from the singularity for twice as "
+            f"much; joint {own.joint} moves most then"
+        )
+    if status in ("parallel", "comprehensive", "constraint"):
+        own = weakness(solved.motion)
+        yield (
+            f"while the actuators stand the platform moves {_moves(own)}, and joint {own.joint} most: near by, "
+            f"{_bearing(solved, own)} would bear a load against it with a force that grows as one over the distance"
+        )
+    if status in ("serial", "comprehensive", "undecided") and (names := unfelt(solved.motion)):
+        yield f"{_list(names)} can move while the pose stays as it is"
+
+
+def _bearing(solved: ActuatorForces, own: Weakness) -> str:
+    largest = float(np.max(np.abs(own.drives)))
+    drives = zip(solved.record.drives, own.drives, strict=True)
+    return _list([item.name for item, share in drives if abs(share) >= FELT * largest])
+
+
+def _moves(own: Weakness) -> str:
+    """Along and about which directions, those that are more than rounding."""
+    parts = []
+    for word, part in (("along", own.twist[:3]), ("about", own.twist[3:])):
+        size = float(np.linalg.norm(part))
+        if size > 1e-6:
+            parts.append(f"{word} ({', '.join(f'{value + 0.0:.3g}' for value in np.round(part / size, 6))})")
+    return " and ".join(parts)
+
+
+def _list(names: tuple[str, ...] | list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
