@@ -110,6 +110,9 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
         (("--actuate", "1.1"), "--actuate without --explain"),
         (("--explain", "tripteron", "--actuate", "1.1"), "--actuate beside the name tripteron"),
         (("--explain", "P[x"), "cannot read this chain"),
+        (("--parasitic",), "unknown motion '3T'; there is: 1T2R, 1T3R, 2R, 2T3R"),
+        (("--parasitic", "--motion", "1T2R", "--limbs", "2"), "2 limbs for 1T2R that others come with"),
+        (("--parasitic", "--motion", "1T2R", "--explain", "three_rps"), "--explain knows no mechanisms of --parasitic"),
     ],
 )
 def test_misuse_says_what_is_allowed(assur_cli, words, message):
@@ -152,5 +155,5 @@ def test_the_commands_of_the_page_find_the_known_mechanisms(assur_cli, command, 
 
 
 def test_the_page_has_its_commands():
-    assert len(ROWS) == 7
-    assert len({name for _, names in ROWS for name in names.split(", ")}) == 16
+    assert len(ROWS) == 11
+    assert len({name for _, names in ROWS for name in names.split(", ")}) == 20

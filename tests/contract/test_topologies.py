@@ -63,6 +63,8 @@ EXPECTED = {
     "H4": "h4_robot",
     "Gough-Stewart": "gough_stewart",
     "3UPS&UP": "three_ups_up",
+    "3-PRS": "three_prs",
+    "Exechon": "exechon",
 }
 
 

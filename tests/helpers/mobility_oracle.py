@@ -25,8 +25,8 @@ NAMED = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
 def read(text):
-    """A chain as a list of (letter, axes), (\"4R\", axis) and lists of branches."""
-    tokens = re.findall(r"P\(4R\)\[[^\]]*\]|[RPHCU]\[[^\]]*\]|S|[{}|]", text)
+    """A chain as a list of (letter, axes, the label that an axis runs through), (\"4R\", axis, None) and branches."""
+    tokens = re.findall(r"P\(4R\)\[[^\]]*\]|[RPHCU]\[[^\]]*\](?:@[A-Z])?|S|[{}|]", text)
     assert "".join(tokens).replace(" ", "") == text.replace(" ", ""), text
     return _series(tokens)
 
@@ -41,10 +41,15 @@ def _series(tokens):
                 branches.append(_series(tokens))
             elements.append(branches)
         elif token == "S":
-            elements.append(("S", np.eye(3)))
+            elements.append(("S", np.eye(3), None))
         else:
-            letter, inside = token[:-1].split("[")
-            elements.append((letter.replace("P(4R)", "4R"), _axes(inside)))
+            letter, inside = token.split("[")
+            inside, label = inside.split("]")
+            marked = [number for number, part in enumerate(re.split("[,;]", inside)) if "@" in part]
+            line = (label[1:], 0) if label else None
+            for number in marked:  # one of the axes of a U
+                line = (re.search("@([A-Z])", inside)[1], number)
+            elements.append((letter.replace("P(4R)", "4R"), _axes(re.sub("@[A-Z]", "", inside)), line))
     return elements
 
 
@@ -89,7 +94,7 @@ def placed(texts, seed):
     """The mechanism of some limbs with random dimensions."""
     rng = np.random.default_rng(seed)
     body = Body([], 2, rng.uniform(-1, 1, 3))
-    counts = {}
+    counts, lines = {}, {}
 
     def link():
         body.links += 1
@@ -112,9 +117,11 @@ def placed(texts, seed):
                 one(*element, near, after)
             near = after
 
-    def one(letter, axes, near, far):
+    def one(letter, axes, line, near, far):
         point = rng.uniform(-1, 1, 3)
         axis = axes[0]
+        if line:
+            point = lines.setdefault(line[0], point) + rng.uniform(-1, 1) * axes[line[1]]
         if letter == "P":
             joint("P", near, far, [[0, 0, 0, *axis]])
         elif letter == "C":

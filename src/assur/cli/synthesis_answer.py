@@ -51,7 +51,7 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
     number = len(synthesis.families)
     yield heading(f"{synthesis.asked.motion.name}: {len(numbered)} mechanisms of {synthesis.asked.limbs} limbs")
     yield from _counts(synthesis, data)
-    if synthesis.asked.hybrid and number:
+    if synthesis.asked.by_families and number:
         yield ""
         yield heading(f"the best {top} of {number} families" if top < number else f"{number} families")
         yield _families(synthesis, data, top)
@@ -62,7 +62,7 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
         yield _table(numbered[:top])
         yield from _reasons(numbered[:top])
     known = [(f"{rank}", design) for rank, design in numbered if design.names]
-    if synthesis.asked.hybrid:
+    if synthesis.asked.by_families:
         known = [
             (f"{rank}", design)
             for rank, family in enumerate(synthesis.families, 1)
@@ -72,7 +72,7 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
     if known:
         yield ""
         yield heading("known mechanisms with these limbs")
-        yield _known(known, "family" if synthesis.asked.hybrid else "rank")
+        yield _known(known, "family" if synthesis.asked.by_families else "rank")
     if data.written is not ABSENT:
         yield ""
         yield f"written: {len(data.written)} files in {folder}"
@@ -95,9 +95,11 @@ def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     types, tally = data.limb_types, synthesis.tally
     kinds = ", ".join(f"{count} with {poc}" for poc, count in types.by_poc.items())
     yield f"positions    {data.positions}"
-    yield f"limb types   {types.with_motion} with the motion: {kinds or 'none'}"
-    yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
-    if synthesis.asked.hybrid:
+    that = "whose constraints leave the motion" if synthesis.asked.parasitic else "with the motion"
+    yield f"limb types   {types.with_motion} {that}: {kinds or 'none'}"
+    route = "by their constraints at home" if synthesis.asked.parasitic else "by the rules"
+    yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion {route}"
+    if synthesis.asked.by_families:
         coupled = Counter(family.coupling_degree for family in data.families)
         yield f"families     {_degrees(coupled) or 'none'}, of the mechanisms that are listed"
     else:
@@ -133,8 +135,8 @@ def _table(numbered: Sequence[Numbered]) -> RenderableType:
 
 
 def _limbs(design: Design) -> str:
-    """Limbs as they stand; equal ones once, in the first position."""
-    if design.symmetric:
+    """Limbs as they stand; equal ones once, in the first position, if they stand as the head of the table says."""
+    if design.symmetric and design.places == tuple(range(len(design.limbs))):
         name = f" ({', '.join(design.names)})" if design.names else ""
         return f"{len(design.limbs)} x {shortened(design.chains[0].text)}{name}"
     return "\n".join(shortened(chain.text) for chain in design.chains)

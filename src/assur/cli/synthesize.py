@@ -48,6 +48,13 @@ def synthesize(
     coupling: Annotated[
         str, Parameter(metavar="LOW..HIGH", help="Coupling degrees that are wanted, as 0..1 or 1; any if left out.")
     ] = "",
+    parasitic: Annotated[
+        bool,
+        Parameter(
+            help="The motion is that at home, 1T2R, 2R, 1T3R or 2T3R, and others come with it, as in 3-RPS; limbs have"
+            " three joints at most. With one limb more than freedoms, a passive one alone constrains the platform."
+        ),
+    ] = False,
     symmetric: Annotated[bool, Parameter(help="Only mechanisms of equal limbs.")] = False,
     actuators: Annotated[
         str, Parameter(metavar="base|leg", help="Drive the first joint of each limb, or a P inside it, as in U-P-U.")
@@ -94,6 +101,7 @@ def synthesize(
         assur synthesize --motion 3T --limbs 2 --coupling 0..1
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
+        assur synthesize --motion 1T2R --parasitic --actuators leg --symmetric
         assur synthesize --limbs 2 --explain tripteron
         assur synthesize --motion 2T1R --explain "R[z] R[z] R[z]" "P[x] S" S
     """
@@ -107,6 +115,8 @@ def synthesize(
     count = _count(top)
     folder = planned_folder(toml) if toml else None
     if explain:
+        if parasitic:
+            raise UsageError("--explain knows no mechanisms of --parasitic", hint="leave one of them out")
         asked = question(motion, number, joints, degrees, symmetric=symmetric, actuators=place, members=members)
         return _explained(explain, actuate, asked, shared)
     if actuate:
@@ -125,6 +135,7 @@ def synthesize(
                 symmetric=symmetric,
                 actuators=place,
                 members=members,
+                parasitic=parasitic,
                 step=step,
                 most=most,
             )

@@ -20,7 +20,7 @@ from assur.results.answers.topology import (
 from assur.synthesis.designs import Design
 from assur.synthesis.explanation import Explanation
 from assur.synthesis.known_mechanisms import DrivenLimb
-from assur.synthesis.positions import in_words
+from assur.synthesis.positions import ABOUT_Z, in_words
 from assur.synthesis.synthesis import ANY, Synthesis, SynthesisQuestion
 from assur.topology.answers import written_poc
 from assur.topology.notation import plain_text, symbolic_text
@@ -38,7 +38,7 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
     families = {id(design): rank for rank, family in enumerate(synthesis.families, 1) for design in family.designs}
     return SynthesisAnswer(
         asked=_asked(asked),
-        positions=in_words(asked.motion, asked.limbs),
+        positions=ABOUT_Z if asked.parasitic else in_words(asked.motion, asked.limbs),
         limb_types=LimbTypeCounts(
             len(synthesis.limbs),
             dict(sorted(Counter(f"t{limb.known.poc.t} r{limb.known.poc.r}" for limb in synthesis.limbs).items())),
@@ -97,19 +97,20 @@ def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
         asked.symmetric,
         asked.actuators,
         asked.members,
+        asked.parasitic,
     )
 
 
 def _design(rank: int, family: int, design: Design) -> DesignAnswer:
     limbs = (
         DesignLimb(
-            limb.chains[place].text,
-            symbolic_text(limb.chains[place]),
+            chain.text,
+            symbolic_text(chain),
             written_poc(limb.known.poc),
             limb.type.freedoms,
             limb.known.route,
         )
-        for limb, place in zip(design.limbs, design.places, strict=True)
+        for limb, chain in zip(design.limbs, design.chains, strict=True)
     )
     return DesignAnswer(
         rank=rank,

@@ -140,7 +140,7 @@ def _simplest(
 ) -> list[Design | Rejected]:
     """The simplest mechanisms of limbs that are not all equal, what was rejected on the way, and known ones."""
     outcomes: list[Design | Rejected] = []
-    known = _known_members(chosen, sought.known)
+    known = known_members(chosen, sought.known)
     for limbs in simplest_members(chosen)[:TRIES]:
         outcomes.append(judge(limbs))
         known = [other for other in known if mechanism(other) != mechanism(limbs)]
@@ -154,7 +154,7 @@ def mechanism(limbs: Sequence[CandidateLimb]) -> Key:
     return mechanism_key(limb.type.key for limb in limbs)
 
 
-def _known_members(chosen: Sequence[Class], known: Collection[Key]) -> list[tuple[CandidateLimb, ...]]:
+def known_members(chosen: Sequence[Class], known: Collection[Key]) -> list[tuple[CandidateLimb, ...]]:
     """Known mechanisms with different limbs, one of each of these classes."""
     by_key = [{limb.type.key: limb for limb in members} for members in chosen]
     members = []

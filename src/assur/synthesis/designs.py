@@ -94,15 +94,19 @@ class Design:
         """Why it stands where it stands, in one sentence without a full stop."""
         first, degree, surplus = self.loops.loops[0], self.coupling_degree, self.redundant.collapsed
         virtual = f"{_COUNTS[degree]} virtual variable{'' if degree == 1 else 's'}"
-        coupled = f"{virtual}, for {_closing(first)} with Δ = {first.delta and f'{first.delta:+d}'}"
+        coupled = f"{virtual}, for {self._closing(first)} with Δ = {first.delta and f'{first.delta:+d}'}"
         exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
         return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
 
+    def _closing(self, loop: Loop) -> str:
+        """Which limbs close a loop.
 
-def _closing(loop: Loop) -> str:
-    """Which limbs close a loop; its edges are called "limb 1", or "limb 1, branch 2" in a limb with an inner loop."""
-    limbs = dict.fromkeys(edge.removeprefix("limb ").partition(",")[0] for edge in loop.joints)
-    if len(limbs) == 1:
-        return f"the inner loop of limb {next(iter(limbs))} closes"
-    return f"limbs {' and '.join(limbs)} close a loop"
+        Its edges are joints, or called "limb 1", or "limb 1, branch 2" in a limb with an inner loop.
+        """
+        of_joint = {joint.name: f"{number}" for number, chain in enumerate(self.chains, 1) for joint in chain.joints}
+        numbers = (of_joint.get(edge, edge.removeprefix("limb ").partition(",")[0]) for edge in loop.joints)
+        limbs = list(dict.fromkeys(numbers))
+        if len(limbs) == 1:
+            return f"the inner loop of limb {limbs[0]} closes"
+        return f"limbs {' and '.join(limbs)} close a loop"

@@ -5,18 +5,25 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import cycle
+from functools import cache
+from itertools import cycle, permutations
+
+import numpy as np
+from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record, names, topology_names
 from assur.model.topologies import load_topology, means_topology
+from assur.synthesis.designs import Design
+from assur.synthesis.home_constraints import constraints_of, home_twists
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.required import RequiredMotion
+from assur.synthesis.shared_axes import sharing_ends, without_labels
 from assur.synthesis.words import AXES
 from assur.topology.chains import Chain, ChainJoint, Element
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
-from assur.topology.directions import NAMED
+from assur.topology.directions import EXACT, NAMED
 from assur.topology.screws.recognition import recognised
 
 
@@ -37,6 +44,65 @@ def known_mechanisms(motion: RequiredMotion) -> Mapping[Key, tuple[str, ...]]:
         if key is not None:
             names_by_key[key].append(name)
     return {key: tuple(names) for key, names in names_by_key.items()}
+
+
+@dataclass(frozen=True)
+class PlacedLimbs:
+    """A built-in mechanism, with how its limbs stand to each other.
+
+    Attributes:
+        name: of the mechanism.
+        chains: its limbs.
+        keys: canonical form of each limb, without what it shares with others.
+    """
+
+    name: str
+    chains: tuple[Chain, ...]
+    keys: tuple[Key, ...]
+
+    @property
+    def key(self) -> Key:
+        """Canonical form of all limbs."""
+        return mechanism_key(self.keys)
+
+    def is_like(self, design: Design) -> bool:
+        """Whether a design has the same limbs, at the same angles to each other, that share the same lines."""
+        keys = [limb.type.key for limb in design.limbs]
+        if mechanism_key(keys) != self.key:
+            return False
+        orders = permutations(range(len(keys)))
+        fitting = (order for order in orders if tuple(keys[place] for place in order) == self.keys)
+        return any(_stand_alike(self.chains, [design.chains[place] for place in order]) for order in fitting)
+
+
+@cache
+def known_by_directions(motion: RequiredMotion) -> tuple[PlacedLimbs, ...]:
+    """Built-in mechanisms whose limbs are series, to be compared with others also by how the limbs are placed.
+
+    >>> from assur.synthesis.required import PARASITIC
+    >>> "three_rps" in [known.name for known in known_by_directions(PARASITIC["1T2R"])]
+    True
+    """
+    found = []
+    for name in dict.fromkeys((*topology_names(), *names())):
+        limbs = limbs_of(name)
+        if all(isinstance(joint, ChainJoint) for limb in limbs for joint in limb.chain.elements):
+            keys = tuple(limb_key(_upright(without_labels(limb.chain)), motion, limb.driven) for limb in limbs)
+            found.append(PlacedLimbs(name, tuple(limb.chain for limb in limbs), keys))
+    return tuple(found)
+
+
+def _stand_alike(first: Sequence[Chain], second: Sequence[Chain]) -> bool:
+    """Whether the constraints of limbs have the same angles, senses forgotten, and the same limbs share lines."""
+    shared = [[sharing_ends(chain) for chain in chains] for chains in (first, second)]
+    return shared[0] == shared[1] and np.allclose(_angles(first), _angles(second), atol=EXACT)
+
+
+def _angles(chains: Sequence[Chain]) -> NDArray[np.float64]:
+    """How far forces and couples of each limb at home are along those of each other one, (2, n, n)."""
+    at_home = [constraints_of(home_twists(without_labels(chain), np.eye(3), 1)) for chain in chains]
+    bases = ([one.forces for one in at_home], [one.couples for one in at_home])
+    return np.array([[[np.linalg.norm(mine.T @ other) for other in kind] for mine in kind] for kind in bases])
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assur.joints.spherical import SPHERICAL
 from assur.synthesis.limbs import LimbType
-from assur.synthesis.poses import edges_at_poses
+from assur.synthesis.poses import edges_at_poses, twists_at_will
 from assur.synthesis.positions import turned
 from assur.synthesis.required import RequiredMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
@@ -113,6 +113,22 @@ def verdict(limb: LimbType, motion: RequiredMotion, turns: Sequence[FloatArray])
     return LimbVerdict(
         CandidateLimb(limb, chains, known, tuple(rule for rule in rules if isinstance(rule, Motion)), placed)
     )
+
+
+def limb_by_itself(limb: LimbType, turns: Sequence[FloatArray]) -> CandidateLimb:
+    """A limb whose motion nothing holds, where only whole mechanisms can tell whether it is of use.
+
+    Args:
+        limb: in its first position.
+        turns: (3, 3) into each position.
+
+    Errors:
+        RoutesDisagreeError: rules and twists differ on its POC set.
+    """
+    chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
+    twists = twists_at_will(limb.chain, np.random.default_rng(limb.freedoms), len(ANGLES))
+    rules = serial(chains[0], "free", chains[0].text)
+    return CandidateLimb(limb, chains, _known(chains[0].text, rules, twists), (), ())
 
 
 def _by_rules(chain: Chain, motion: RequiredMotion) -> Motion | Refusal:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import permutations, product
 from typing import Literal
 
 import numpy as np
@@ -16,12 +17,13 @@ from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
 from assur.synthesis.inner_loops import INNER_LOOPS
 from assur.synthesis.isomorphism import Key, limb_key
-from assur.synthesis.poses import is_special
+from assur.synthesis.poses import is_special, twists_at_will
 from assur.synthesis.positions import upright
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.words import Word, crossing, words
+from assur.synthesis.words import AXES, Word, crossing, words
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import NAMED, Vector
+from assur.topology.screws.edges import rank
 
 Actuators = Literal["base", "leg"]
 """Where the driven joint of a limb stands: the first joint, or the first P between two joints that turn."""
@@ -36,6 +38,8 @@ FREE_LIMB_JOINTS = 3
 """Of the limbs that constrain nothing only the shortest are listed, with one ball joint each."""
 
 TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
+
+FREEDOMS_OF = {letter: joint.freedoms for letter, joint in TYPES.items()}
 
 KINDS: dict[str, ParallelogramKind] = {"A": "4R", "B": "4S", "D": "2US"}
 
@@ -101,6 +105,46 @@ def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) ->
         for groups, driven in _candidates(motion, max_joints, actuators)
     )
     return _once(serial, motion)
+
+
+@lru_cache(KEPT)
+def short_types(motion: RequiredMotion, actuators: Actuators, *, passive: bool = False) -> tuple[LimbType, ...]:
+    """Limbs of two or three joints R, P, C, U and S with axes along x, y, z, each once, regular as written.
+
+    Args:
+        motion: at home; relations to its axis are told apart.
+        actuators: where the driven joint stands.
+        passive: whether limbs without a driven joint are meant instead, which have as many freedoms as the motion.
+
+    >>> from assur.synthesis.required import PARASITIC
+    >>> from assur.topology.notation import plain_text
+    >>> "R[x] P[y] S" in {plain_text(limb.chain) for limb in short_types(PARASITIC["1T2R"], "leg")}
+    True
+    """
+    pairs = permutations(AXES, 2)
+    groups = [*((letter, axis) for letter in "RPC" for axis in AXES), *(("U", f + s) for f, s in pairs), ("S", "")]
+    return tuple(limb for limb in _once(_short(motion, groups, actuators, passive), motion) if _is_regular(limb))
+
+
+def _short(
+    motion: RequiredMotion, groups: Sequence[_Group], actuators: Actuators, passive: bool
+) -> Iterator[tuple[Chain, tuple[int, ...]]]:
+    for count in (2, 3):
+        for word in product(groups, repeat=count):
+            freedoms = sum(FREEDOMS_OF[letter] for letter, _ in word)
+            if not motion.dim <= freedoms <= (motion.dim if passive else FREE):
+                continue
+            driven = _driven(word, actuators)
+            if passive:
+                yield Chain(tuple(map(_element, word))), ()
+            elif driven is not None and not _spoils_a_cylinder(word, driven):
+                yield Chain(tuple(map(_element, word))), (driven,)
+
+
+def _is_regular(limb: LimbType) -> bool:
+    """Whether all its freedoms are independent as written."""
+    twists = twists_at_will(limb.chain, np.random.default_rng(limb.freedoms), 1, 0.0)
+    return rank(twists) == limb.freedoms
 
 
 @lru_cache(KEPT)

@@ -97,6 +97,16 @@ def twists_at_poses(chain: Chain, orientations: FloatArray, generator: np.random
     return None if angles is None else _twists(steps, angles, generator)
 
 
+def twists_at_will(chain: Chain, generator: np.random.Generator, count: int, spread: float = SPREAD) -> FloatArray:
+    """Twists (count, 6, f) of a series that nothing holds, with random links; its joints turn by up to a spread.
+
+    Errors:
+        UsageError: as `twists_at_poses`.
+    """
+    steps = _steps(chain.elements)
+    return _twists(steps, generator.uniform(-spread, spread, (count, len(_axes(steps)))), generator)
+
+
 def is_special(chain: Chain) -> bool:
     """Whether the limb as written has fewer independent freedoms than when it is displaced.
 

@@ -25,6 +25,9 @@ SWAP: FloatArray = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 DIGITS = 15
 """Decimals of a direction that is not along x, y or z: enough for parallel axes, and short to read."""
 
+ABOUT_Z = "each limb is as written or turned about z by 90°; three also by 120° from one to the next"
+"""How limbs stand whose motion at home counts."""
+
 
 def positions(motion: RequiredMotion, limbs: int) -> tuple[FloatArray, ...]:
     """Rotations (3, 3) that take a limb as written into each of its positions.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,15 +67,26 @@ MOTIONS = {
 }
 """Motions that can be asked for; what singles out a direction has it along z."""
 
+PARASITIC = {
+    motion.name: motion
+    for motion in (
+        RequiredMotion("1T2R", (_Z,), (_X, _Y), _Z),
+        RequiredMotion("2R", (), (_X, _Y), _Z),
+        RequiredMotion("1T3R", (_Z,), (_X, _Y, _Z), _Z),
+        RequiredMotion("2T3R", (_X, _Y), (_X, _Y, _Z), _Z),
+    )
+}
+"""Motions at home, where others come with them as soon as it is left; translations are across or along z."""
 
-def motion_named(name: str) -> RequiredMotion:
+
+def motion_named(name: str, among: Mapping[str, RequiredMotion] = MOTIONS) -> RequiredMotion:
     """The motion of a name, upper or lower case.
 
     >>> motion_named("3T").dim
     3
     """
-    motion = MOTIONS.get(name.strip().upper())
+    motion = among.get(name.strip().upper())
     if motion is None:
         hint = "T counts translations, R rotations: 3T is three translations without rotation"
-        raise UnknownNameError("motion", name, MOTIONS, hint=hint)
+        raise UnknownNameError("motion", name, among, hint=hint)
     return motion

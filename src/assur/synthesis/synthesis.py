@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations_with_replacement
@@ -16,11 +16,12 @@ from assur.synthesis.assembly import MEMBERS, MechanismFamily, Range, Sought, as
 from assur.synthesis.classes import Class, are_equal, classes, number_of_members
 from assur.synthesis.designs import Design
 from assur.synthesis.isomorphism import Key
-from assur.synthesis.known_mechanisms import known_mechanisms
+from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import Actuators, hybrid_types, limb_types
+from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
 from assur.synthesis.positions import placements, positions
-from assur.synthesis.required import RequiredMotion, motion_named
+from assur.synthesis.required import PARASITIC, RequiredMotion, motion_named
 from assur.synthesis.tally import Tally, total
 from assur.topology.agreement import RoutesDisagreeError
 
@@ -46,11 +47,17 @@ class SynthesisQuestion:
     symmetric: bool
     actuators: Actuators
     members: int
+    parasitic: bool = False
 
     @property
     def hybrid(self) -> bool:
         """Whether some limbs begin with an inner loop and have two actuators."""
         return self.limbs < self.motion.dim
+
+    @property
+    def by_families(self) -> bool:
+        """Whether what is found is told by families, which are many."""
+        return self.hybrid or self.parasitic
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +98,7 @@ def synthesis(
     symmetric: bool = False,
     actuators: Actuators = "base",
     members: int = MEMBERS,
+    parasitic: bool = False,
     step: Step = ignored,
     most: int | None = None,
 ) -> Synthesis:
@@ -109,6 +117,9 @@ def synthesis(
         actuators: "base" where the first joint of each limb is driven (R, P or the translation of C), "leg" where it is
             the first P between two joints that turn.
         members: of each family of different limbs so many are listed, the simplest, and known ones.
+        parasitic: the motion is that at home, and others come with it: by limbs of three joints at most, whose
+            constraints at home leave it, and a finite motion of each mechanism that is listed. One limb more than the
+            motion has freedoms is passive, and alone constrains the platform.
         step: called with (steps done, steps in all).
         most: combinations at most; any number where None.
 
@@ -122,7 +133,16 @@ def synthesis(
         >>> [design.names for design in found.designs if "three_crr" in design.names]
         [('three_crr',)]
     """
-    asked = question(motion, limbs, max_joints, coupling, symmetric=symmetric, actuators=actuators, members=members)
+    asked = question(
+        motion,
+        limbs,
+        max_joints,
+        coupling,
+        symmetric=symmetric,
+        actuators=actuators,
+        members=members,
+        parasitic=parasitic,
+    )
     return searched(asked, step, most)
 
 
@@ -140,15 +160,13 @@ def searched(
     Errors:
         TooManyError, Interrupted, RoutesDisagreeError: as `synthesis`.
     """
+    if asked.parasitic:
+        return _parasitic(asked, step, most)
     usable, left_out, disagreements = _limbs(asked, step)
     classes_of_limbs = classes(usable)
     chosen = _sets_of_classes(classes_of_limbs, asked)
     count = sum(map(number_of_members, chosen)) if not asked.symmetric else sum(len(some[0]) for some in chosen)
-    if most is not None and count > most:
-        raise TooManyError(
-            f"{count} combinations of {len(usable)} limb types, and {most} are looked at unasked",
-            hint="ask for fewer joints or for equal limbs, or allow more by `most`",
-        )
+    _refuse_more(most, count, len(usable))
     sought = Sought(
         asked.motion,
         Range(*asked.coupling),
@@ -165,6 +183,35 @@ def searched(
     except KeyboardInterrupt:
         raise Interrupted(_answer(asked, classes_of_limbs, left_out, families, disagreements)) from None
     return _answer(asked, classes_of_limbs, left_out, families, disagreements)
+
+
+def _refuse_more(most: int | None, count: int, types: int) -> None:
+    if most is not None and count > most:
+        raise TooManyError(
+            f"{count} combinations of {types} limb types, and {most} are looked at unasked",
+            hint="ask for fewer joints or for equal limbs, or allow more by `most`",
+        )
+
+
+def _parasitic(asked: SynthesisQuestion, step: Step, most: int | None) -> Synthesis:
+    """Mechanisms whose motion at home is the one that is asked for."""
+    classes_of_limbs = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.motion.dim)
+    known = known_by_directions(asked.motion)
+    sought = Sought(
+        asked.motion, Range(*asked.coupling), (), asked.symmetric, asked.members, [one.key for one in known]
+    )
+    families: list[MechanismFamily] = []
+    try:
+        arranged = list(arranged_classes(classes_of_limbs, asked.motion, asked.limbs))
+        if asked.symmetric:
+            arranged = [one for one in arranged if are_equal(one.chosen)]
+        _refuse_more(most, sum(one.members for one in arranged), sum(map(len, classes_of_limbs)))
+        for done, one in enumerate(arranged):
+            step(done, len(arranged))
+            families.append(moved(one, sought))
+    except KeyboardInterrupt:
+        raise Interrupted(_answer(asked, classes_of_limbs, Counter(), families, ())) from None
+    return _answer(asked, classes_of_limbs, Counter(), families, ())
 
 
 def _sets_of_classes(every: Sequence[Class], asked: SynthesisQuestion) -> list[tuple[Class, ...]]:
@@ -189,8 +236,8 @@ def _answer(
     disagreements += tally.disagreements
     if disagreements:
         raise RoutesDisagreeError("; ".join(disagreements), hint="assur has an error; please report these chains")
-    known = known_mechanisms(asked.motion)
-    named = [_named(family, known) for family in families if family.designs]
+    names = _names(asked)
+    named = [_named(family, names) for family in families if family.designs]
     return Synthesis(
         asked=asked,
         limbs=tuple(limb for members in classes_of_limbs for limb in members),
@@ -209,16 +256,22 @@ def question(
     symmetric: bool = False,
     actuators: Actuators = "base",
     members: int = MEMBERS,
+    parasitic: bool = False,
 ) -> SynthesisQuestion:
     """What is asked of a synthesis, by the arguments of `synthesis`.
 
     Errors:
         UnknownNameError, UsageError: as `synthesis`.
     """
-    target = motion_named(motion)
+    target = motion_named(motion, among=PARASITIC) if parasitic else motion_named(motion)
     number = target.dim if limbs is None else limbs
+    if parasitic and number not in (target.dim, target.dim + 1):
+        raise UsageError(
+            f"{number} limbs for {target.name} that others come with; each has one drive, and at most one has none",
+            hint=f"give {target.dim}, or {target.dim + 1} of which one has no drive",
+        )
     least = max(2, math.ceil(target.dim / 2))
-    if not least <= number <= target.dim:
+    if not parasitic and not least <= number <= target.dim:
         raise UsageError(
             f"{number} limbs for {target.name}; a limb has one actuator, or two with an inner loop",
             hint=f"give {least} to {target.dim}, or leave the number out for {target.dim}",
@@ -236,7 +289,7 @@ def question(
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
     if members < 1:
         raise UsageError(f"{members} members of each family; one at least")
-    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members)
+    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members, parasitic)
 
 
 def _limbs(asked: SynthesisQuestion, step: Step) -> tuple[list[CandidateLimb], Counter[str], tuple[str, ...]]:
@@ -265,11 +318,15 @@ def _sorted(verdicts: Sequence[LimbVerdict]) -> tuple[list[CandidateLimb], Count
     )
 
 
-def _named(family: MechanismFamily, known: Mapping[Key, tuple[str, ...]]) -> MechanismFamily:
-    """The family with the names of known mechanisms that have the same limbs."""
-    return dataclasses.replace(
-        family,
-        designs=tuple(
-            dataclasses.replace(design, names=known.get(mechanism(design.limbs), ())) for design in family.designs
-        ),
-    )
+def _names(asked: SynthesisQuestion) -> Callable[[Design], tuple[str, ...]]:
+    """What gives the names of known mechanisms with the same limbs; parasitic ones are placed alike, too."""
+    if asked.parasitic:
+        placed = known_by_directions(asked.motion)
+        return lambda design: tuple(one.name for one in placed if one.is_like(design))
+    known = known_mechanisms(asked.motion)
+    return lambda design: known.get(mechanism(design.limbs), ())
+
+
+def _named(family: MechanismFamily, names: Callable[[Design], tuple[str, ...]]) -> MechanismFamily:
+    designs = (dataclasses.replace(design, names=names(design)) for design in family.designs)
+    return dataclasses.replace(family, designs=tuple(designs))

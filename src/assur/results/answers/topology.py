@@ -338,6 +338,7 @@ class AskedSynthesis:
     symmetric: bool
     actuators: str
     max_members: int
+    parasitic: bool
 
 
 @dataclass(frozen=True)

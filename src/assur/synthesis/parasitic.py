@@ -1,0 +1,231 @@
+"""Parasitic mechanisms: the motion that is asked is that at home, and others come with it as soon as home is left.
+
+No motion of a limb says so. The constraints of the limbs at home do, forces and couples that depend on directions of
+axes; and a finite motion of each mechanism confirms it, that its freedom lasts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import chain as joined
+from itertools import combinations_with_replacement, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.rotations import about_axis
+from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members
+from assur.synthesis.classes import AMONG, Class, simplicity
+from assur.synthesis.designs import Design
+from assur.synthesis.home_constraints import constraints_of, home_twists, together
+from assur.synthesis.limb_motions import CandidateLimb, limb_by_itself
+from assur.synthesis.limbs import FREE, Actuators, LimbType, short_types
+from assur.synthesis.positions import DIGITS, SWAP, turned
+from assur.synthesis.required import RequiredMotion
+from assur.synthesis.shared_axes import End, sharing, with_common_line
+from assur.synthesis.tally import Tally
+from assur.topology.agreement import RoutesDisagreeError
+from assur.topology.analysis import analyse
+from assur.topology.counting.coupling import Decomposition
+from assur.topology.counting.inputs import numbered_inputs
+from assur.topology.facts import Topology
+from assur.topology.screws.configurations import ImmobileError, configurations
+from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.placing import place
+from assur.topology.screws.twists import UnclearRankError, dimensions, edges, motion_space
+
+FloatArray = NDArray[np.float64]
+
+_THIRDS = (about_axis(np.array([0.0, 0.0, 1.0]), np.radians(np.array(angle))) for angle in (120.0, 240.0))
+
+TURNS = (np.eye(3), SWAP, *(np.round(turn, DIGITS) for turn in _THIRDS))
+"""Positions of a limb: as written, with x and y exchanged, turned about z by a third and by two thirds of a turn."""
+
+EVENLY = (0, 2, 3)
+"""Positions of three limbs evenly about z."""
+
+LINES: tuple[End, ...] = ("", "base", "platform")
+"""Where limbs may turn about one line, tried in this order."""
+
+SEEDS = (1, 2)
+"""Two places of a limb: the directions of its constraints must not depend on where it stands."""
+
+TRIES, BARREN = 40, 12
+"""So many mechanisms of different limbs are moved to find those that are listed, fewer if there is none among them."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArrangedClasses:
+    """Limbs by the class of each, in an arrangement in which their constraints leave the motion at home.
+
+    Attributes:
+        chosen: the class of each limb.
+        places: the position of each.
+        line: the link on which those with parallel axes next to it turn about one line, none where it is empty.
+    """
+
+    chosen: tuple[Class, ...]
+    places: tuple[int, ...]
+    line: End
+
+    @property
+    def members(self) -> int:
+        """Mechanisms that it stands for; limbs of one class that stand alike change places."""
+        return math.prod(math.comb(len(limbs) + count - 1, count) for limbs, count in self._slots())
+
+    def simplest(self) -> list[tuple[CandidateLimb, ...]]:
+        """One limb of each class, the simplest first, among the simplest of each class."""
+        few = int(AMONG ** (1 / len(self.chosen)))
+        choices = [combinations_with_replacement(limbs[:few], count) for limbs, count in self._slots()]
+        return sorted((tuple(joined.from_iterable(parts)) for parts in product(*choices)), key=simplicity)
+
+    def _slots(self) -> list[tuple[Class, int]]:
+        """Limbs of one class that stand alike, and how many; those evenly about z do."""
+        places = (0,) * len(self.places) if self.places == EVENLY else self.places
+        counts = Counter((id(limbs), place) for limbs, place in zip(self.chosen, places, strict=True))
+        by_id = {id(limbs): limbs for limbs in self.chosen}
+        return [(by_id[number], count) for (number, _), count in counts.items()]
+
+
+def limb_classes(motion: RequiredMotion, actuators: Actuators, *, passive: bool) -> tuple[Class, ...]:
+    """Limbs whose constraints leave the motion its freedoms, those with constraints along the same directions together.
+
+    Args:
+        motion: at home.
+        actuators: where the driven joint of a limb stands.
+        passive: whether one limb has no drive and alone constrains the platform, while the others constrain nothing.
+    """
+    types = short_types(motion, actuators)
+    if passive:
+        types = (*(limb for limb in types if limb.freedoms == FREE), *short_types(motion, actuators, passive=True))
+    classes: dict[object, list[CandidateLimb]] = {}
+    for limb in types:
+        stood = _with_directions(limb, motion)
+        if stood is not None:
+            classes.setdefault((limb.driven == (), stood[0]), []).append(limb_by_itself(stood[1], TURNS))
+    ordered = (sorted(limbs, key=lambda limb: simplicity([limb])) for limbs in classes.values())
+    return tuple(sorted(map(tuple, ordered), key=lambda limbs: (limbs[0].type.freedoms, simplicity(limbs[:1]))))
+
+
+def _with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[object, ...], LimbType] | None:
+    """The directions of its constraints, and the limb turned into them; none if it resists the motion."""
+    first, second = (constraints_of(home_twists(limb.chain, TURNS[0], seed)) for seed in SEEDS)
+    alone = limb.driven or first.leave(motion)  # what nothing drives must constrain the platform by itself
+    if first.key != second.key or not alone or not first.allows(motion):
+        return None
+    swapped = LimbType(turned(limb.chain, SWAP), limb.driven, limb.key)
+    other = constraints_of(home_twists(swapped.chain, TURNS[0], SEEDS[0]))
+    return (other.key, swapped) if other.key > first.key else (first.key, limb)
+
+
+def arranged_classes(classes: Sequence[Class], motion: RequiredMotion, limbs: int) -> Iterator[ArrangedClasses]:
+    """Sets of classes whose constraints leave just the motion at home, in each arrangement in which they do."""
+
+    @cache
+    def wrenches(index: int, slot: int, place: int, line: End) -> FloatArray:
+        chain = classes[index][0].type.chain
+        return constraints_of(home_twists(chain, TURNS[place], slot, line)).wrenches
+
+    for indices in combinations_with_replacement(range(len(classes)), limbs):
+        chosen = tuple(classes[index] for index in indices)
+        if sum(len(members[0].type.driven) for members in chosen) != motion.dim:
+            continue
+        for places in _placements(chosen):
+            chains = [members[0].chains[place] for members, place in zip(chosen, places, strict=True)]
+            for line in LINES:
+                shared = sharing(chains, line) if line else ()
+                if line and not shared:
+                    continue
+                lines: list[End] = [line if slot in shared else "" for slot in range(limbs)]
+                if together(list(map(wrenches, indices, range(limbs), places, lines))).leave(motion):
+                    yield ArrangedClasses(chosen, places, line)
+                    break
+
+
+def _placements(chosen: Sequence[Class]) -> list[tuple[int, ...]]:
+    """Positions of limbs, each set once: at right angles, evenly about z; free ones as written."""
+    free = [limbs[0].type.freedoms == FREE for limbs in chosen]
+
+    def stood(places: Sequence[int]) -> list[tuple[int, int]]:
+        return sorted((id(limbs), place) for limbs, place in zip(chosen, places, strict=True))
+
+    kept: dict[str, tuple[int, ...]] = {}
+    for places in product((0, 1), repeat=len(chosen)):
+        across = [0 if none else 1 - place for none, place in zip(free, places, strict=True)]  # x and y exchanged
+        if not any(none and place for none, place in zip(free, places, strict=True)):
+            kept.setdefault(repr(min(stood(places), stood(across))), places)
+    several = len(chosen) == len(EVENLY) and sum(free) < len(chosen) - 1
+    return [*kept.values(), EVENLY] if several else list(kept.values())
+
+
+def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
+    """The simplest mechanisms of some classes of which a finite motion confirms that their freedom lasts, best first.
+
+    Args:
+        arranged: of whose constraints at home the motion is known.
+        sought: what is asked of them; its placements do not matter.
+    """
+    outcomes: list[Design | Rejected] = []
+    equal = [limbs for limbs in arranged.simplest() if all(limb is limbs[0] for limb in limbs)]
+    others = [] if sought.symmetric else [limbs for limbs in arranged.simplest()[:TRIES] if limbs not in equal]
+    most = len(equal) if sought.symmetric else sought.members
+    named = known_members(arranged.chosen, sought.known)
+    for limbs in {tuple(map(id, limbs)): limbs for limbs in [*named, *equal, *others]}.values():
+        listed = sum(isinstance(outcome, Design) for outcome in outcomes)
+        if listed >= most or len(outcomes) >= (TRIES if listed or sought.symmetric else BARREN):
+            break
+        outcomes.append(_outcome(limbs, arranged, sought))
+    designs = sorted((outcome for outcome in outcomes if isinstance(outcome, Design)), key=lambda design: design.order)
+    rejected = [outcome for outcome in outcomes if isinstance(outcome, Rejected)]
+    members = len(equal) if sought.symmetric else arranged.members
+    tally = Tally(
+        classes=1,
+        combinations=members,
+        with_motion=members if designs else 0,
+        tried=len(outcomes),
+        unfixed=sum(rejection.unfixed for rejection in rejected),
+        disagreements=tuple(rejection.disagreement for rejection in rejected if rejection.disagreement),
+    )
+    return MechanismFamily(tuple(designs), tally)
+
+
+def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: Sought) -> Design | Rejected:
+    placed = [limb.chains[place] for limb, place in zip(limbs, arranged.places, strict=True)]
+    chains = with_common_line(placed, arranged.line)
+    driven = [f"{number}.{place + 1}" for number, limb in enumerate(limbs, 1) for place in limb.type.driven]
+    linkage = place(chains, actuated=numbered_inputs(chains, driven))
+    try:
+        if not _keeps_its_freedoms(linkage, sought.motion):
+            return Rejected()
+        topology = analyse(linkage, chains)
+    except (UnclearRankError, ImmobileError):  # modes meet at home, or its freedom does not last
+        return Rejected()
+    except RoutesDisagreeError as error:
+        return Rejected(disagreement=error.message)
+    if not _is_parasitic(topology, sought.motion):
+        return Rejected()
+    if topology.coupling_degree is None:
+        return Rejected(unfixed=True)
+    if topology.coupling_degree not in sought.degrees:
+        return Rejected()
+    known = topology.known
+    loops = Decomposition(topology.loops, topology.assur_chains)
+    return Design(tuple(limbs), arranged.places, chains, known, loops, topology.dof, "home")
+
+
+def _keeps_its_freedoms(linkage: Linkage, motion: RequiredMotion) -> bool:
+    """Whether a displaced platform has as many freedoms as a motion; known much faster than its topology."""
+    displaced = edges(linkage, configurations(linkage, len(SEEDS)))
+    t, r, dim = dimensions(motion_space(displaced, linkage.base, linkage.platform))
+    return dim == motion.dim < t + r
+
+
+def _is_parasitic(topology: Topology, motion: RequiredMotion) -> bool:
+    """Whether a mechanism has the freedoms of a motion, all of its joints move, and others come with them."""
+    poc = topology.poc
+    whole = not topology.internal_freedoms and not topology.idle_joints
+    return whole and topology.dof == poc.dim == motion.dim < poc.t + poc.r
