@@ -5,11 +5,11 @@ import math
 import pytest
 import sympy
 
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sets import next_set
 from assur.derivation.solution import analytic_solution
 from assur.derivation.strokes import stroke_vectors
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 from assur.model.registry import load_record
 

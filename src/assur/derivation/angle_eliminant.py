@@ -10,8 +10,8 @@ import sympy
 
 from assur.derivation.definitions import Definition
 from assur.derivation.linear import Form, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.trigonometric import homogeneous
+from assur.derivation.unknown_directions import UnknownDirection
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,9 @@ from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.line_and_conic import line_and_conic
 from assur.derivation.linear import ONE, Form, divided, rank, solved, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.reduced_quadrics import product_symbol, reduced_form, reduced_quadric
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 ZERO = sympy.Integer(0)

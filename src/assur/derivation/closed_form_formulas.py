@@ -12,12 +12,12 @@ import sympy
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
 from assur.derivation.linear import tidy
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
 from assur.derivation.three_quadrics import ThreeQuadrics, three_quadrics
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.velocities import VelocityEquations, velocity_equations
 from assur.joints.steps import about
 from assur.kinematics.modes import Problem

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 
 from assur.derivation.flow_figure import flow_figure
 from assur.derivation.formula_latex import COLUMN, width
+from assur.derivation.letters_of_names import joint_letter, plain
 from assur.derivation.phrases import listed
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
-from assur.derivation.printed_letters import joint_letter, plain
 from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.reasons import left_out
 from assur.derivation.written_solution import Block, WrittenFormula

@@ -21,10 +21,10 @@ from assur.derivation.cycle_types import CycleType, findings
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.linear import ONE, Form, divided, rank, replaced, solved, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.reduced_quadrics import product_symbol, reduced_form, reduced_quadric
 from assur.derivation.trigonometric import trigonometric_terms
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness, NoResidueRootError
 
 ZERO = sympy.Integer(0)

@@ -15,8 +15,8 @@ import sympy
 from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.definitions import Definition
 from assur.derivation.linear import ONE, Form, divided, never_zero, rank, solved, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
 

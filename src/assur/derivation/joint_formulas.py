@@ -10,10 +10,10 @@ from typing import Any
 import sympy
 
 from assur.derivation.hinges import cross_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import Orientation
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED, about
 from assur.model.mechanism import Joint

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import sympy
 
 from assur.derivation.linear import ONE, Form, divided, never_zero, projected, rank, replaced, solved, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 ZERO = sympy.Integer(0)

@@ -10,10 +10,11 @@ import sympy
 
 from assur.derivation.exact_vectors import ExactVectors
 from assur.derivation.hinges import point_on
-from assur.derivation.loop_equations import LoopEquations, UnknownDirection
+from assur.derivation.loop_equations import LoopEquations
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.phrases import NamedDirection, NamedJoint, NamedLink
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.joints.steps import UNTURNED
 from assur.model.mechanism import Joint
 from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract

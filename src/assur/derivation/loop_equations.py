@@ -17,52 +17,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
 
 import sympy
 
-from assur.derivation.ball_triangles import SIDES, BallTriangle
+from assur.derivation.carried_vectors import CarriedVectors
 from assur.derivation.definitions import Definition
 from assur.derivation.dimension_relations import dimension_relations
 from assur.derivation.hinges import Hinge
-from assur.derivation.linear import ONE, Form, form_of
+from assur.derivation.linear import Form, form_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED, about
 from assur.model.mechanism import Joint
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, scaled, subtract, transposed
-
-
-@dataclass(frozen=True)
-class UnknownDirection:
-    """What is unknown of a link: cosine and sine of an angle, the components of a rod's direction, or of a vector.
-
-    Attributes:
-        kind: "circle", "rod", "side" of a triangle of balls, or "stroke", a vector whose length is unknown too.
-        name: by which its angle is called.
-        unknowns: its symbols.
-        links: whose orientation it says.
-        square: of its length.
-    """
-
-    kind: Literal["circle", "rod", "side", "stroke"]
-    name: str
-    unknowns: tuple[sympy.Symbol, ...]
-    links: tuple[str, ...]
-    square: sympy.Expr = ONE
-
-    @property
-    def quadric(self) -> sympy.Expr:
-        """What vanishes of its own accord: the sum of squares less that of its length."""
-        return sum(unknown**2 for unknown in self.unknowns) - self.square
-
-    @property
-    def freedoms(self) -> int:
-        """How many linear equations determine it, but for a choice of two."""
-        return len(self.unknowns) - (self.kind != "stroke")
 
 
 @dataclass(frozen=True)
@@ -114,14 +85,6 @@ def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquat
     return _Loops(symbols, placed).equations()
 
 
-def sides_of(triangle: BallTriangle, links: Sequence[str]) -> tuple[UnknownDirection, ...]:
-    """The sides of a triangle as unknowns, called by the link and the numbers of both corners."""
-    name = links[0].replace(".", "_")
-    unknowns = (tuple(sympy.Symbol(f"d{k}_{name}_{ends}", real=True) for k in "xyz") for ends in SIDES)
-    every = zip(SIDES, unknowns, triangle.squares, strict=True)
-    return tuple(UnknownDirection("side", f"{name}_{ends}", own, tuple(links), square) for ends, own, square in every)
-
-
 class _Loops:
     def __init__(self, symbols: GivenSymbols, placed: LinkOrientations) -> None:
         self.symbols, self.record, self.placed = symbols, symbols.record, placed
@@ -129,9 +92,7 @@ class _Loops:
         self.lengths: dict[int, sympy.Symbol] = {}
         self.strokes: dict[sympy.Symbol, UnknownDirection] = {}
         self.oblique: dict[sympy.Symbol, sympy.Symbol] = {}
-        self.circles = {k: self._unknown_direction("circle", links) for k, links in self._numbered("circle").items()}
-        self.rods = {k: self._unknown_direction("rod", links) for k, links in self._numbered("rod").items()}
-        self.sides = {own.number: sides_of(own, links) for own, links in self._triangles().items()}
+        self.carried = CarriedVectors(symbols, placed)
 
     def equations(self) -> LoopEquations:
         point: dict[str, tuple[Vector, Vector]] = {self.record.base: ((0, 0, 0), (0, 0, 0))}
@@ -149,7 +110,7 @@ class _Loops:
         shared = [own for turn in self.placed.hinges for own in self._apart(turn)]
         framed = self._framed()
         gaps = [self._in_frame(gap, framed) for gap in gaps]
-        around = [[own.unknowns for own in sides] for sides in self.sides.values()]
+        around = [[own.unknowns for own in sides] for sides in self.carried.sides.values()]
         gaps += [add(add((*a,), (*b,)), (*c,)) for a, b, c in around]
         rows = [part for gap in gaps for part in gap]
         rows += [platform[LENGTHS.index(name)] - symbol for name, symbol in self.symbols.place.items()]
@@ -158,8 +119,8 @@ class _Loops:
             for row in (*(row for row, _ in shared), *rows, *platform)
             for symbol in sympy.sympify(row).free_symbols
         }
-        sides = (own for group in self.sides.values() for own in group)
-        every = (*self.circles.values(), *self.rods.values(), *sides)
+        sides = (own for group in self.carried.sides.values() for own in group)
+        every = (*self.carried.circles.values(), *self.carried.rods.values(), *sides)
         directions = [direction for direction in every if used & {*direction.unknowns}]
         forms = [self._form(row, directions, framed) for row in rows]
         unknowns = self._plain_lengths(framed)
@@ -232,12 +193,12 @@ class _Loops:
     @cached_property
     def _seconds(self) -> list[UnknownDirection]:
         numbers = {own.second for own in self.placed.links.values() if own.second is not None}
-        return [self.circles[number] for number in numbers]
+        return [self.carried.circles[number] for number in numbers]
 
     @cached_property
     def _carriers(self) -> list[UnknownDirection]:
         numbers = {own.circle for own in self.placed.links.values() if own.second is not None}
-        return [self.circles[number] for number in numbers if number is not None]
+        return [self.carried.circles[number] for number in numbers if number is not None]
 
     def _apart(self, turn: Hinge) -> Iterator[tuple[sympy.Expr, SharedAxis]]:
         """How far an axis w in two links is from being one, along what turns one of them.
@@ -248,8 +209,8 @@ class _Loops:
         first, second = (self.placed.links[link] for link, _ in ends)
         if any(own.rod is not None for own in (first, second)):
             return
-        axes = [self.carried(link, axis) for link, axis in ends]
-        gap = self._tidied(subtract(*axes))
+        axes = [self.carried.vector(link, axis) for link, axis in ends]
+        gap = self.carried.tidied(subtract(*axes))
         if not any(gap):
             return
         turning = [k for k, own in enumerate((first, second)) if own.circle is not None and own.second is None]
@@ -261,10 +222,10 @@ class _Loops:
         if own.axis is None or own.circle is None:
             return
         share = sympy.simplify(dot(self._within(link, own), axis))
-        start = self._short(own.axis, subtract(apply(own.constant, axis), scaled(own.axis, share)))
-        cosine, sine = self.circles[own.circle].unknowns
+        start = self.carried.short(own.axis, subtract(apply(own.constant, axis), scaled(own.axis, share)))
+        cosine, sine = self.carried.circles[own.circle].unknowns
         size = 1 - share**2
-        beside = self._short(own.axis, cross(own.axis, start))
+        beside = self.carried.short(own.axis, cross(own.axis, start))
         for along, number in ((own.axis, share), (start, size * cosine), (beside, size * sine)):
             yield dot(along, other) - number, SharedAxis(turn, scaled(along, 1 if k else -1))
 
@@ -289,41 +250,18 @@ class _Loops:
                 return axis if link == joint.parent else apply(transposed(own.turn), axis)
         return turn.axis if link == turn.parent else scaled(turn.back.axis, -1)
 
-    def _numbered(self, kind: Literal["circle", "rod"]) -> dict[int, list[str]]:
-        numbered: dict[int, list[str]] = {}
-        for link, own in self.placed.links.items():
-            circle = own.circle if own.second is None else own.second
-            number = own.rod if kind == "rod" else circle if own.rod is None else None
-            if number is not None:
-                numbered.setdefault(number, []).append(link)
-        return numbered
-
-    def _unknown_direction(self, kind: Literal["circle", "rod"], links: list[str]) -> UnknownDirection:
-        name = next((link for link in links if "'" not in link), links[0]).replace(".", "_").replace("'s cross", "")
-        prefixes = ("cos", "sin") if kind == "circle" else ("ex", "ey", "ez")
-        return UnknownDirection(
-            kind, name, tuple(sympy.Symbol(f"{k}_{name}", real=True) for k in prefixes), tuple(links)
-        )
-
-    def _triangles(self) -> dict[BallTriangle, list[str]]:
-        links: dict[BallTriangle, list[str]] = {}
-        for link, own in self.placed.links.items():
-            if own.triangle is not None:
-                links.setdefault(own.triangle, []).append(link)
-        return links
-
     def _points(self, joint: Joint) -> tuple[Vector, Vector]:
         own = self.symbols.geometry.joints[joint.name]
         return own.at, own.child_at
 
     def _place(self, link: str, vector: Vector, point: Mapping[str, tuple[Vector, Vector]]) -> Vector:
         known, place = point[link]
-        return add(place, self.carried(link, subtract(vector, known)))
+        return add(place, self.carried.vector(link, subtract(vector, known)))
 
     def _slid(self, joint: Joint) -> Vector:
         total: Vector = (0, 0, 0)
         for axis, index in self._sliding(joint):
-            along, length = self.carried(joint.parent, axis), self.symbols.locked.get(index)
+            along, length = self.carried.vector(joint.parent, axis), self.symbols.locked.get(index)
             if length is not None:
                 total = add(total, scaled(along, length))
                 continue
@@ -332,7 +270,7 @@ class _Loops:
             if circle is not None and any(still):
                 total = add(total, scaled(still, length))
                 across = sympy.Symbol(f"{length.name}_across", real=True)
-                self.oblique[length], along, length = across, self._tidied(subtract(along, still)), across
+                self.oblique[length], along, length = across, self.carried.tidied(subtract(along, still)), across
             if circle is not None:
                 self.strokes[length] = circle
             total = add(total, scaled(along, length))
@@ -351,27 +289,19 @@ class _Loops:
             NotDerivedError: it slides otherwise.
         """
         used = {symbol for part in along for symbol in sympy.sympify(part).free_symbols}
-        turning = [own for own in (*self.circles.values(), *self.rods.values()) if used & {*own.unknowns}]
+        turning = [
+            own for own in (*self.carried.circles.values(), *self.carried.rods.values()) if used & {*own.unknowns}
+        ]
         if not turning:
             return None, (0, 0, 0)
         circle = turning[0]
         x, y, z = (sympy.sympify(part).subs(dict.fromkeys(circle.unknowns, 0)) for part in along)
-        still = self._tidied((x, y, z))
+        still = self.carried.tidied((x, y, z))
         if len(turning) > 1 or (circle.kind == "rod" and any(still)):
             raise NotDerivedError(f"{joint.name} slides on a link that turns, not along its line")
         if circle.kind == "rod" and circle in self.strokes.values():
             raise NotDerivedError(f"{joint.name} slides on a link that turns, beside another slider")
         return circle, still
-
-    def carried(self, link: str, vector: Vector) -> Vector:
-        """A vector fixed in a link, in the base."""
-        own = self.placed.links[link]
-        turned = apply(own.constant, vector) if own.constant is not UNTURNED else vector
-        if own.rod is not None:
-            return self._along(link, own, turned)
-        if own.triangle is not None:
-            return self._in_triangle(link, own.triangle, turned)
-        return self._turned(own, turned)
 
     def _platform(self, point: Mapping[str, tuple[Vector, Vector]]) -> tuple[Vector, Vector]:
         """The platform's point, and what of it is along the product of two sides."""
@@ -381,57 +311,6 @@ class _Loops:
             return self._place(link, at, point), (0, 0, 0)
         known, place = point[link]
         vector = apply(constant, subtract(at, known))
-        first, last = (own.unknowns for own in self.sides[triangle.number][::2])
+        first, last = (own.unknowns for own in self.carried.sides[triangle.number][::2])
         share = triangle.beside(vector)
-        return add(place, self._of_sides(triangle, vector)), scaled(cross((*first,), (*last,)), share)
-
-    def _in_triangle(self, link: str, triangle: BallTriangle, vector: Vector) -> Vector:
-        if not self.symbols.witness.is_zero(triangle.beside(vector)):
-            raise NotDerivedError(f"{link} has a joint beside the plane of {', '.join(triangle.joints)}")
-        return self._of_sides(triangle, vector)
-
-    def _of_sides(self, triangle: BallTriangle, vector: Vector) -> Vector:
-        """What a vector has of the first and of the last side."""
-        first, last = triangle.shares(vector)
-        (a, b, c), _, (x, y, z) = (own.unknowns for own in self.sides[triangle.number])
-        return add(scaled((a, b, c), first), scaled((x, y, z), last))
-
-    def _turned(self, own: Orientation, turned: Vector) -> Vector:
-        """A vector that turns on a circle, if there is one, or on one that turns on another."""
-        if own.axis is None or own.circle is None:
-            return turned
-        parts = [(sympy.Integer(1), turned)]
-        if own.second is not None and own.hinge is not None:
-            parts = self._about(own.hinge, own.second, turned)
-        whole: Vector = (0, 0, 0)
-        for factor, part in parts:
-            for share, vector in self._about(own.axis, own.circle, part):
-                whole = add(whole, scaled(vector, factor * share))
-        return whole
-
-    def _about(self, axis: Vector, circle: int, turned: Vector) -> list[tuple[sympy.Expr, Vector]]:
-        """Vectors of which a turned one is the sum, by 1, the cosine and the sine."""
-        cosine, sine = self.circles[circle].unknowns
-        along = self._short(axis, self._tidied(scaled(axis, dot(axis, turned))))
-        across = self._short(axis, self._tidied(subtract(turned, along)))
-        beside = self._short(axis, self._tidied(cross(axis, across)))
-        return [(sympy.Integer(1), along), (cosine, across), (sine, beside)]
-
-    def _short(self, axis: Vector, vector: Vector) -> Vector:
-        """A vector by names, where it turns about an axis that what is given turns."""
-        return self.placed.named.vector(vector) if any(map(self.placed.named.turned, axis)) else vector
-
-    def _along(self, link: str, own: Orientation, vector: Vector) -> Vector:
-        line, hinge, is_zero = own.line or (0, 0, 0), own.hinge or (0, 0, 0), self.symbols.witness.is_zero
-        across = is_zero(dot(line, hinge))
-        share, beside = dot(line, vector), dot(hinge, vector) if across else 0
-        in_plane = add(scaled(line, share), scaled(hinge, beside))
-        if not all(map(is_zero, subtract(vector, in_plane))):
-            raise NotDerivedError(f"{link} is no straight rod")
-        ex, ey, ez = self.rods[own.rod or 0].unknowns
-        along = scaled((ex, ey, ez), sympy.simplify(share))
-        return along if is_zero(beside) else add(along, scaled(self._turned(own, hinge), beside))
-
-    def _tidied(self, vector: Vector) -> Vector:
-        x, y, z = (0 if self.symbols.witness.is_zero(part) else sympy.expand(part) for part in vector)
-        return x, y, z
+        return add(place, self.carried.of_sides(triangle, vector)), scaled(cross((*first,), (*last,)), share)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import sympy
 
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import Orientation
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.joints.steps import UNTURNED, about
 from assur.model.pose import ANGLES, has_quaternion
 from assur.numerics.vectors import Matrix, Vector, add, apply, cross, product, scaled, transposed

@@ -17,10 +17,10 @@ from assur.derivation.elimination import SolvedSet
 from assur.derivation.identities import SetIdentities, stroke_identities
 from assur.derivation.linear import ONE, Form, form_of, value_of
 from assur.derivation.linear_span import ZERO, LinearSpan, Multipliers, NoIdentityError, times, total_of, unit
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.reduced_quadrics import product_symbol, reduced_quadric
 from assur.derivation.strokes import StrokeVector
 from assur.derivation.trigonometric import trigonometric_terms
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 

@@ -12,11 +12,12 @@ import numpy as np
 import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.letters_of_names import input_letter, letter, plain, sign_formula
 from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.numeric_example import ExampleBranch, angle, example_branches
 from assur.derivation.platform_rotation import platform_rotation
-from assur.derivation.printed_letters import PrintedLetters, input_letter, letter, plain, sign_formula
+from assur.derivation.printed_letters import PrintedLetters
 from assur.derivation.printed_velocities import PrintedVelocities, printed_velocities
 from assur.derivation.solution import AnalyticSolution, analytic_solution
 from assur.derivation.symbols import circle_of

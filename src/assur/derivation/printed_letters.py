@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,20 +10,16 @@ from functools import cached_property
 import sympy
 
 from assur.derivation.formula_latex import FormulaLatex, PrintedLetter
-from assur.derivation.loop_equations import UnknownDirection
+from assur.derivation.letters_of_names import defined, input_letter, joint_letter, kind_of, letter
 from assur.derivation.phrases import direction as direction_text
 from assur.derivation.phrases import listed, words
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.kinematics.home import home_values
-from assur.model.mechanism import Coordinate, Input
+from assur.model.mechanism import Coordinate
 from assur.model.pose import ANGLES
-from assur.topology.latex import name as joint_latex
 
-GREEK = frozenset(
-    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi", "rho"}
-    | {"sigma", "tau", "phi", "chi", "psi", "omega"}
-)
 TURNS = (r"\theta", r"\varphi", r"\psi", r"\chi", r"\omega", r"\eta", r"\zeta")
 """Letters for angles of which the file names none: one for each kind of link, its number as index."""
 RODS = ("d", "f", "g", "n", "m", "p")
@@ -34,13 +29,8 @@ STROKES = ("v", "u", "w", "e")
 """For vectors with a length in them."""
 ROOTS = ("g", "k", "p", "q", "f")
 """And for roots of sums of dimensions."""
-SHIFTED = {"^": r"\wedge", "~": r"\sim"}
-"""Characters that words have and text in LaTeX does not."""
 SAME = 1e-9
 """Angles at home that are one, to rounding."""
-
-_SPECIAL = re.compile(r"([&%$#_{}])")
-_NUMBERED = re.compile(r"(\D*?)_?(\d+)_?([A-Za-z_]*)(\d*)")
 
 
 @dataclass(frozen=True)
@@ -91,7 +81,7 @@ class PrintedLetters:
                     own |= self._of_stroke(unknown)
         own |= {root: PrintedLetter(root.name, rank=1) for root in self.radicals.values()}
         for definition in self.solution.definitions:
-            own.setdefault(definition.symbol, PrintedLetter(_defined(definition.symbol.name)))
+            own.setdefault(definition.symbol, PrintedLetter(defined(definition.symbol.name)))
         for root in self.solution.roots:
             sign, sense = self.signs[root.symbol]
             radicand = own[root.radicand].latex
@@ -245,9 +235,9 @@ class PrintedLetters:
 
     def _letter(self, unknown: UnknownDirection, letters: tuple[str, ...]) -> str:
         """A letter for the kind of link, with its number as index."""
-        kinds = list(dict.fromkeys(_kind(other.name)[0] for other in self._unnamed(unknown.kind)))
-        kind, number = _kind(unknown.name)
-        same = [other.name for other in self._unnamed(unknown.kind) if _kind(other.name) == (kind, number)]
+        kinds = list(dict.fromkeys(kind_of(other.name)[0] for other in self._unnamed(unknown.kind)))
+        kind, number = kind_of(unknown.name)
+        same = [other.name for other in self._unnamed(unknown.kind) if kind_of(other.name) == (kind, number)]
         free = [own for own in letters if own not in self._taken]
         place = kinds.index(kind)
         if place >= len(free) or len(same) > 1:
@@ -269,89 +259,6 @@ class PrintedLetters:
         return {name.partition("_")[0] for name in (*names, *(input_letter(driven) for driven in record.inputs))}
 
 
-def input_letter(driven: Input) -> str:
-    """The file's LaTeX of an input, else its name as a letter."""
-    return driven.latex if driven.latex != driven.name else letter(driven.name)
-
-
-def joint_letter(name: str) -> str:
-    r"""A joint's name as a letter; of a repeated limb's the limb's number comes first.
-
-    >>> joint_letter("B3a"), joint_letter("leg1.A"), joint_letter("leg2.B1"), joint_letter("leg1.Pa")
-    ('B_{3a}', 'A_{1}', 'B_{2,1}', '\\mathrm{Pa}_{1}')
-    """
-    limb = re.fullmatch(r"[A-Za-z_]+(\d+)\.([A-Za-z]+)(\w*)", name)
-    if not limb:
-        return joint_latex(name)
-    number, part, further = limb.groups()
-    return joint_latex(part) + f"_{{{number}{',' + further if further else ''}}}"
-
-
-def letter(name: str) -> str:
-    r"""A name of a file as a letter with an index.
-
-    >>> letter("l2"), letter("wB"), letter("betaC"), letter("alpha"), letter("rise"), letter("theta_1")
-    ('l_{2}', 'w_{B}', '\\beta_{C}', '\\alpha', '\\mathrm{rise}', '\\theta_{1}')
-    """
-    match = re.fullmatch(r"([A-Za-z]+?)_?(\d+\w?)", name) or re.fullmatch(r"([a-z]+)_?([A-Z]\d*)", name)
-    stem, index = match.groups() if match else (name, "")
-    plain = f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else rf"\mathrm{{{stem.replace('_', ' ')}}}"
-    return f"{plain}_{{{index}}}" if index else plain
-
-
 def _of_angle(name: str, latex: str) -> dict[sympy.Symbol, PrintedLetter]:
     cosine, sine = circle_of(name)
     return {cosine: PrintedLetter(latex, "cos", rank=5), sine: PrintedLetter(latex, "sin", rank=5)}
-
-
-def _defined(name: str) -> str:
-    """A name that the derivation gives: a letter, an axis, the number of its set."""
-    plain = name.rstrip("_")
-    match = re.fullmatch(r"([A-Za-z])([xyz]?)(\d*)", plain)
-    if match is None:
-        return rf"\mathrm{{{plain}}}"
-    stem, axis, number = match.groups()
-    stem = rf"\bar{{{stem}}}" if plain != name else stem  # another quantity has the name without
-    return f"{stem}_{{{number}{axis}}}"
-
-
-def _kind(name: str) -> tuple[str, str]:
-    """What a link is, and its number: of a repeated limb the limb's."""
-    match = _NUMBERED.fullmatch(name)
-    if match is None:
-        return name, ""
-    before, number, after, further = match.groups()
-    return f"{before} {after if len(after) > 1 else ''}{further}", number
-
-
-def plain(text: str) -> str:
-    r"""Words of a file in LaTeX.
-
-    >>> plain("height of B_i, 50 %")
-    'height of B\\_i, 50 \\%'
-    """
-    escaped = _SPECIAL.sub(r"\\\1", text.replace("\\", "/"))
-    escaped = re.sub(r"[<>|^~]", lambda match: f"${SHIFTED.get(match[0], match[0])}$", escaped)
-    return escaped.encode("ascii", "replace").decode("ascii")
-
-
-def sign_formula(text: str, angles: Mapping[str, str]) -> str:
-    r"""What a file says of a sign, as mathematics: coordinates of points, and angles of joints by their letters.
-
-    >>> sign_formula("C1.z - B1.z > 0", {}), sign_formula("sin(D3a - D1) > 0", {"D3a": r"\beta", "D1": r"\alpha"})
-    ('z_{C_{1}} - z_{B_{1}} > 0', '\\sin(\\beta - \\alpha) > 0')
-    >>> sign_formula("sin(D1) > 0", {"D1": r"\alpha"})
-    '\\sin \\alpha > 0'
-    """
-    plain_text = re.sub(r"\b(sin|cos|tan)\(([\w.]+)\)", r"\1 \2", text)
-
-    def letters(match: re.Match[str]) -> str:
-        function, joint, axis, name = match.groups()
-        if function:
-            return rf"\{function}{'(' if match[0].endswith('(') else ' '}"
-        if axis:
-            return f"{axis}_{{{joint_letter(joint)}}}"
-        return angles.get(name, rf"\theta_{{{joint_letter(name)}}}")
-
-    pattern = r"\b(sin|cos|tan)[( ]|\b([A-Za-z][\w.]*)\.([xyz])\b|\b([A-Za-z][\w.]*)"
-    return re.sub(pattern, letters, plain_text).replace("*", "")

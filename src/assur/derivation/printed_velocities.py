@@ -11,7 +11,7 @@ from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.formula_latex import BREAK, COLUMN, width, wrapped
-from assur.derivation.printed_letters import input_letter, letter
+from assur.derivation.letters_of_names import input_letter, letter
 from assur.derivation.written_solution import WrittenFormula, WrittenSolution
 
 NUMBER = 8

@@ -14,13 +14,14 @@ from assur.derivation.elimination import SolvedSet
 from assur.derivation.identities import SetIdentities, set_identities
 from assur.derivation.linear import Form, form_of, value_of
 from assur.derivation.linear_span import LinearSpan, Multipliers, NoIdentityError, unit
-from assur.derivation.loop_equations import SharedAxis, UnknownDirection
+from assur.derivation.loop_equations import SharedAxis
 from assur.derivation.orientations import Orientation
 from assur.derivation.pair_identities import pair_identities
 from assur.derivation.polynomial_identities import PolynomialIdentities, polynomial_identities
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import without_identities
 from assur.derivation.strokes import StrokeVector, stroke_vectors
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 from assur.results.answers.answer import ABSENT, Absent
 from assur.results.answers.derivation import (

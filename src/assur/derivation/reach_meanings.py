@@ -16,9 +16,9 @@ from assur.derivation.circle_pairs import PairEliminant
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.linear import Form
 from assur.derivation.link_lines import LinkLine, LinkLines
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.phrases import GeometricPhrase, NamedJoint, NamedLink, PhrasePart, joined, listed, phrase
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.joint_graph.tree import joint_graph
 from assur.numerics.vectors import Vector, add, cross, scaled
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import sympy
 
 from assur.derivation.linear import ONE, Form, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.trigonometric import reduced
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 ZERO = sympy.Integer(0)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from assur.derivation.elimination import SolvedSet
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
+from assur.derivation.unknown_directions import UnknownDirection
 
 
 class ResistingSetError(NotDerivedError):

@@ -11,8 +11,8 @@ from itertools import combinations
 import sympy
 
 from assur.derivation.linear import Form, divided, rank, solved, sparse
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 

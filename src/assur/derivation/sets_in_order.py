@@ -11,13 +11,14 @@ import sympy
 from assur.derivation.eliminants import eliminated
 from assur.derivation.elimination import SolvedSet, solution, with_known
 from assur.derivation.linear import ONE, Form, divided, form_of, size, sparse, value_of
-from assur.derivation.loop_equations import LoopEquations, UnknownDirection
+from assur.derivation.loop_equations import LoopEquations
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.sets import equations_alone, next_set
 from assur.derivation.strokes import StrokeVector, with_strokes
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.mechanism import MechanismRecord
 
 

@@ -17,8 +17,8 @@ import sympy
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.linear import Form
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 ZERO = sympy.Integer(0)

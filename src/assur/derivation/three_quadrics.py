@@ -16,8 +16,8 @@ import sympy
 from assur.derivation.definitions import Definition
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.linear import ONE, Form, never_zero, rank, replaced, solved, tidy, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.reduced_quadrics import quadric_form
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
 SPACE = 3

@@ -17,12 +17,12 @@ import sympy
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.linear import ONE, Form, combined, divided, form_of, replaced, solved, sparse, tidy
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import turning_in_space
 from assur.derivation.symbols import circle_of
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.mechanism import Joint
 from assur.model.pose import ANGLES
 from assur.numerics.vectors import Vector, apply, scaled, subtract

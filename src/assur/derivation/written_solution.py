@@ -14,15 +14,16 @@ from assur.derivation.circle_pairs import CirclePair, PairEliminant
 from assur.derivation.definitions import Definition
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.formula_latex import BREAK, COLUMN, FUNCTIONS, FormulaLatex, width, wrapped
+from assur.derivation.letters_of_names import input_letter, joint_letter
 from assur.derivation.linear import ONE, Form, never_zero, value_of
-from assur.derivation.loop_equations import UnknownDirection
 from assur.derivation.phrases import GeometricPhrase, direction, listed, words
 from assur.derivation.platform_rotation import posed_entries
-from assur.derivation.printed_letters import PrintedLetters, input_letter, joint_letter
+from assur.derivation.printed_letters import PrintedLetters
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reduced_quadrics import product_symbol
 from assur.derivation.rod_vectors import RodVectors, rod_vectors
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.pose import ANGLES
 
 ZERO = sympy.Integer(0)
