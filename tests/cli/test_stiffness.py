@@ -52,3 +52,21 @@ def test_what_is_lacking_or_wrong_is_told(assur_cli, tmp_path):
     far = assur_cli("stiffness", "zeng2019", "--pose", "0", "0", "9999", "--json")
     assert (far.code, far.json["compliance"], far.json["shares"]) == (4, None, None)
     assert far.json["failures"]
+
+
+def test_maps_go_through_the_workspace_and_into_files(assur_cli, tmp_path):
+    words = ("stiffness", "fivebar", "--map", "x,y", "--nodes", "6", "--resolution", "8")
+    run = assur_cli(*words, "-o", str(tmp_path / "map.csv"))
+    assert run.code == 0
+    assert "least_stiffness_of_actuators [N/m]" in run.out
+    lines = (tmp_path / "map.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith(
+        "x [mm],y [mm],status,least_stiffness [N/m],least_stiffness_of_actuators [N/m],direction_x"
+    )
+    assert len(lines) == 37
+    assert assur_cli(*words, "-o", str(tmp_path / "map.png")).code == 0
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    data = assur_cli(*words, "--json").json
+    assert data["maps"]["least_stiffness"]["least"]["value"] > 0
+    assert assur_cli(*words, "--pose", "0", "224").code == 2
+    assert assur_cli("stiffness", "fivebar", "--pose", "0", "224", "-o", "x.csv").code == 2

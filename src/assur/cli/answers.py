@@ -71,7 +71,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "schema": (SchemaAnswer,),
     "show": (MechanismAnswer, MassesAnswer),
     "singularity": (ConfigurationAnswer, SingularityAnswer),
-    "stiffness": (StiffnessAnswer,),
+    "stiffness": (StiffnessAnswer, MapsAnswer),
     "sweep": (SweepAnswer,),
     "synthesize": (SynthesisAnswer, ExplanationAnswer),
     "topology": (TopologyAnswer,),

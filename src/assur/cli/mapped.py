@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from rich.console import RenderableType
@@ -20,6 +20,7 @@ from assur.cli.progress import progress
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.answers.style import style_of
+from assur.kinematics.status import Status
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.indices import MapsAnswer
@@ -29,6 +30,9 @@ from assur.results.plain_text import short
 from assur.workspace.index_maps import IndexMaps, index_maps
 from assur.workspace.region import Workspace, workspace
 from assur.workspace.slices import MOST, coordinates, slice_at
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 PICTURES = (".png", ".pdf", ".svg")
 ENDINGS = (".npz", ".csv", ".json", *PICTURES)
@@ -45,17 +49,33 @@ def over_plane(
     shared: Shared,
 ) -> Outcome:
     """Every index over the coordinates of `plane`; `asked` is the mode, boxes, strokes and resolution."""
-    names = _names(record, plane)
+    names = plane_names(record, plane)
+    count = whole_number(nodes, "--nodes")
+    written = maps_file(output, names)
+    region = region_of_plane(record, names, at, asked, shared)
+    with progress("index maps", shared):
+        maps = index_maps(record, region, names, nodes=count, characteristic_length=length)
+    shown = maps.in_degrees() if record.angle == "deg" else maps
+    answer = shown.answer()
+    if written is not None:
+        write_maps(written, shown, answer, lambda: _drawn(record, region, maps))
+    return Outcome(answer, lambda: _shown(record, shown, written))
+
+
+def region_of_plane(
+    record: Mechanism,
+    names: Sequence[str],
+    at: Sequence[str],
+    asked: tuple[str | None, Sequence[str], Sequence[str], str],
+    shared: Shared,
+) -> Workspace:
+    """The workspace that maps over coordinates `names` go through."""
     mode, box, stroke, resolution = asked
     question = region_question.question(
         record, mode, box, stroke, resolution, (), None, [*at, *_rest(record, names, at)]
     )
-    count = whole_number(nodes, "--nodes")
-    written = None if output is None else output_file(output, ENDINGS)
-    if written is not None and written.suffix.lower() in PICTURES and len(names) != 2:
-        raise UsageError(f"cannot draw {len(names)} coordinates in {written}", hint="give two to --map, as --map x,z")
     with progress("workspace", shared) as step:
-        region = workspace(
+        return workspace(
             record,
             question.mode,
             question.box,
@@ -65,16 +85,18 @@ def over_plane(
             held=question.held,
             progress=step,
         )
-    with progress("index maps", shared):
-        found = index_maps(record, region, names, nodes=count, characteristic_length=length)
-    shown = found.in_degrees() if record.angle == "deg" else found
-    answer = shown.answer()
-    if written is not None:
-        _write(written, record, region, found, shown, answer)
-    return Outcome(answer, lambda: _shown(record, shown, written))
 
 
-def _names(record: Mechanism, plane: str) -> tuple[str, ...]:
+def maps_file(output: str | None, names: Sequence[str]) -> Path | None:
+    """Where maps are written, None where they are not; pictures are of two coordinates."""
+    written = None if output is None else output_file(output, ENDINGS)
+    if written is not None and written.suffix.lower() in PICTURES and len(names) != 2:
+        raise UsageError(f"cannot draw {len(names)} coordinates in {written}", hint="give two to --map, as --map x,z")
+    return written
+
+
+def plane_names(record: Mechanism, plane: str) -> tuple[str, ...]:
+    """The coordinates that --map names."""
     names = tuple(name.strip() for name in plane.split(","))
     for name in names:
         if name not in coordinates(record):
@@ -103,18 +125,15 @@ def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[st
     return texts
 
 
-def _write(
-    path: Path, record: Mechanism, region: Workspace, maps: IndexMaps, shown: IndexMaps, answer: MapsAnswer
-) -> None:
+def write_maps(path: Path, shown: IndexMaps, answer: MapsAnswer, drawn: Callable[[], Figure]) -> None:
+    """Write maps as the ending of the file says."""
     ending = path.suffix.lower()
     if ending in PICTURES:
-        from assur.figures.context import Context
         from assur.figures.encode import encoded
-        from assur.figures.index_maps import drawn
         from assur.figures.style import styled
 
         with styled():
-            figure = drawn(Context(record, region), maps).figure
+            figure = drawn()
         write_whole(path, encoded(figure, ending[1:]))
     elif ending == ".npz":
         import numpy as np
@@ -126,13 +145,21 @@ def _write(
         write_whole(path, shown.csv() if ending == ".csv" else json_text(answer) + "\n")
 
 
-def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
+def _drawn(record: Mechanism, region: Workspace, maps: IndexMaps) -> Figure:
+    from assur.figures.context import Context
+    from assur.figures.index_maps import drawn
+
+    return drawn(Context(record, region), maps).figure
+
+
+def map_tables(record: Mechanism, maps: IndexMaps, what: str) -> Iterable[RenderableType]:
+    """Which maps of `what` these are, with means and extremes and where these are."""
     style, names = style_of(record), maps.coordinates
     of_mode = f" of working mode {maps.mode}" if maps.mode else ""
-    yield heading(f"{maps.mechanism}, index maps{of_mode}")
+    yield heading(f"{maps.mechanism}, {what} maps{of_mode}")
     axes = ", ".join(f"{name} {nodes[0]:g} .. {nodes[-1]:g}" for name, nodes in maps.axes)
     held = "".join(f", {name} = {value:g}" for name, value in maps.held.items())
-    inside = int(np.sum(np.isfinite(maps["transmission"])))
+    inside = int(np.sum(maps.status != Status.unreachable))
     yield f"over {axes}{held}: {inside} of {maps.status.size} nodes in the workspace"
     yield ""
     rows, places = [], []
@@ -143,12 +170,16 @@ def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable
                     (unit, "none", "none", "none"))  # fmt: skip
         if ends:
             places.append((name, *(", ".join(f"{value:.6g}" for value in end.at) for end in ends)))
-    yield table(("index", "mean", "least", "most"), rows, left=("index",))
+    yield table((what, "mean", "least", "most"), rows, left=(what,))
     if places:
         yield ""
         where = ", ".join(map(style.coordinate_title, names))
         yield table((f"at {where}", "least", "most"), places, left=(f"at {where}",))
     yield ""
+
+
+def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
+    yield from map_tables(record, maps, "index")
     yield "means and extremes are those of the nodes; without --map they come with errors"
     if maps.reach is not None:
         beyond = int(np.sum(np.isinf(maps["distance"])))

@@ -176,6 +176,84 @@ def index_maps(
     >>> found["condition"].shape, found.maps["condition"].least.value.__round__(9), sorted(found.held)
     ((5, 5), 1.0, ['y'])
     """
+    grid = map_grid(region, plane, held, nodes)
+    inside, of_nodes = _inside(record, region, grid.points, characteristic_length)
+
+    def spread(part: NDArray[Any]) -> NDArray[Any]:
+        return grid.spread(inside, part, np.nan)
+
+    maps = {
+        name: grid.map(index.symbol, index.meaning, index.unit(of_nodes), spread(of_nodes[name]))
+        for name, index in INDICES.items()
+    }
+    away = None
+    if record.closed_form is not None and set(record.platform.pose) & set(LENGTHS):
+        away = distance(record, region.slice.poses(grid.points[inside]), region.mode, reach)
+        maps[DISTANCE] = grid.map(r"\delta", MEANING, record.unit, spread(away.value))
+    return IndexMaps(
+        **grid.header(record, region),
+        status=grid.spread(inside, of_nodes.status, Status.unreachable).reshape(grid.shape),
+        length=of_nodes.length,
+        reach=None if away is None else away.reach,
+        factor=None if away is None else grid.spread(inside, away.factor, "").reshape(grid.shape),
+        maps=maps,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class MapGrid:
+    """Nodes over the box of a workspace: those of the coordinates that vary, and all as points of the workspace.
+
+    Attributes:
+        axes: (name, nodes) of each coordinate that varies.
+        held: the other coordinates that the workspace leaves free.
+        points: (N, free coordinates).
+    """
+
+    axes: tuple[tuple[str, FloatArray], ...]
+    held: Mapping[str, float]
+    points: FloatArray
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Nodes along each axis."""
+        return tuple(len(values) for _, values in self.axes)
+
+    def spread(self, inside: NDArray[np.bool_], part: NDArray[Any], elsewhere: Any) -> NDArray[Any]:
+        """Numbers at the nodes (N,), of those at the nodes that are inside."""
+        whole = np.full(len(self.points), elsewhere, dtype=part.dtype)
+        whole[inside] = part
+        return whole
+
+    def map(self, symbol: str, meaning: str, unit: str, values: FloatArray) -> MapAnswer:
+        """The map of values (N,), NaN where there are none, with its mean and its extremes."""
+        known = np.flatnonzero(np.isfinite(values))
+        mean, least, most = None, None, None
+        if len(known):
+            low, high = known[np.argmin(values[known])], known[np.argmax(values[known])]
+            mean = float(np.mean(values[known]))
+            least = MapExtreme(float(values[low]), tuple(self.points[low].tolist()))
+            most = MapExtreme(float(values[high]), tuple(self.points[high].tolist()))
+        return MapAnswer(symbol, meaning, unit, values.reshape(self.shape), mean, least, most)
+
+    def header(self, record: MechanismRecord, region: Workspace) -> dict[str, Any]:
+        """What maps over it say of their mechanism and of their coordinates."""
+        return {
+            "mechanism": record.name,
+            "mode": region.mode,
+            "how": region.how,
+            "unit": record.unit,
+            "angle": "rad",
+            "coordinates": region.box.names,
+            "axes": self.axes,
+            "held": {**region.slice.held, **self.held},
+        }
+
+
+def map_grid(
+    region: Workspace, plane: Sequence[str] | None = None, held: Mapping[str, float] | None = None, nodes: int = NODES
+) -> MapGrid:
+    """The nodes of maps; arguments and errors are those of `index_maps`."""
     names, fixed = _plane(region, plane, held)
     if isinstance(nodes, bool) or not isinstance(nodes, (int, np.integer)) or nodes < 2:
         raise UsageError(f"nodes: {nodes!r} is not a whole number of at least 2")
@@ -186,40 +264,10 @@ def index_maps(
         )
     box = region.box
     axes = tuple((name, np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], int(nodes))) for name in names)
-    shape = tuple(len(values) for _, values in axes)
     wide = dict(zip(names, np.meshgrid(*(values for _, values in axes), indexing="ij"), strict=True))
     points = np.stack([wide[name].ravel() if name in wide else np.full(nodes ** len(names), fixed[name])
                        for name in box.names], axis=-1)  # fmt: skip
-    inside, found = _found(record, region, points, characteristic_length)
-
-    def spread(part: NDArray[Any], elsewhere: Any) -> NDArray[Any]:
-        whole = np.full(len(points), elsewhere, dtype=part.dtype)
-        whole[inside] = part
-        return whole
-
-    maps = {
-        name: _map(index.symbol, index.meaning, index.unit(found), spread(found[name], np.nan), points, shape)
-        for name, index in INDICES.items()
-    }
-    away = None
-    if record.closed_form is not None and set(record.platform.pose) & set(LENGTHS):
-        away = distance(record, region.slice.poses(points[inside]), region.mode, reach)
-        maps[DISTANCE] = _map(r"\delta", MEANING, record.unit, spread(away.value, np.nan), points, shape)
-    return IndexMaps(
-        mechanism=record.name,
-        mode=region.mode,
-        how=region.how,
-        unit=record.unit,
-        angle="rad",
-        coordinates=box.names,
-        axes=axes,
-        held={**region.slice.held, **fixed},
-        status=spread(found.status, Status.unreachable).reshape(shape),
-        length=found.length,
-        reach=None if away is None else away.reach,
-        factor=None if away is None else spread(away.factor, "").reshape(shape),
-        maps=maps,
-    )
+    return MapGrid(axes, fixed, points)
 
 
 def _plane(
@@ -243,7 +291,7 @@ def _plane(
     return names, {name: float(given.get(name, middle[name])) for name in box.names if name not in names}
 
 
-def _found(
+def _inside(
     record: MechanismRecord, region: Workspace, points: FloatArray, length: Length
 ) -> tuple[NDArray[np.bool_], Indices]:
     """Which points (N, free coordinates) lie in the workspace, and every index there."""
@@ -253,19 +301,6 @@ def _found(
         )
     inside = inside_at(region.margins, points)
     return inside, indices_at(record, region.joints(points[inside]), length)
-
-
-def _map(
-    symbol: str, meaning: str, unit: str, values: FloatArray, points: FloatArray, shape: tuple[int, ...]
-) -> MapAnswer:
-    known = np.flatnonzero(np.isfinite(values))
-    mean, least, most = None, None, None
-    if len(known):
-        low, high = known[np.argmin(values[known])], known[np.argmax(values[known])]
-        mean = float(np.mean(values[known]))
-        least = MapExtreme(float(values[low]), tuple(points[low].tolist()))
-        most = MapExtreme(float(values[high]), tuple(points[high].tolist()))
-    return MapAnswer(symbol, meaning, unit, values.reshape(shape), mean, least, most)
 
 
 def _names(status: NDArray[np.int8]) -> NDArray[np.str_]:
