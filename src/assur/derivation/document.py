@@ -11,7 +11,7 @@ from assur.derivation.phrases import listed
 from assur.derivation.printed_derivation import PrintedDerivation, PrintedExample, PrintedProblem
 from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.reasons import left_out
-from assur.derivation.written_solution import Block, WrittenFormula
+from assur.derivation.written_parts import Block, WrittenFormula
 from assur.results.plain_text import signed
 from assur.topology.facts import Topology
 

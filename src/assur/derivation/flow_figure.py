@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from assur.derivation.formula_latex import width
-from assur.derivation.written_solution import FlowNode
+from assur.derivation.written_parts import FlowNode
 
 LEFT, BOX, STEP, HIGH = 24, 44, 13, 7
 """Millimetres: where boxes begin, how wide they are, from one to the next, and how high."""

@@ -12,7 +12,8 @@ from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.formula_latex import BREAK, COLUMN, width, wrapped
 from assur.derivation.letters_of_names import input_letter, letter
-from assur.derivation.written_solution import WrittenFormula, WrittenSolution
+from assur.derivation.written_parts import WrittenFormula
+from assur.derivation.written_solution import WrittenSolution
 
 NUMBER = 8
 """Letters that the number of an equation takes."""

@@ -17,7 +17,7 @@ from assur.derivation.printed_derivation import PrintedProblem, printed_derivati
 from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.reasons import left_out, sentences
 from assur.derivation.solution import AnalyticSolution, analytic_solution
-from assur.derivation.written_solution import WrittenFormula, WrittenPart
+from assur.derivation.written_parts import WrittenFormula, WrittenPart
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
 from assur.report.formulas import latex, mathml
