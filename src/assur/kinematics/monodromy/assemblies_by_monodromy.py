@@ -27,7 +27,7 @@ from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion
 from assur.numerics.monodromy import random_complex
-from assur.numerics.rational_functions import circle, rational_degree
+from assur.numerics.rational_functions import rational_degree, scattered
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -44,8 +44,17 @@ REGULAR = 1e-7
 SIZES = 4.0
 """Logarithm of how much farther away, or nearer, than 1 corners of loops are. With half of it one five-bar in ten was
 called complete with one of its two assemblies: no way went round where these meet."""
+ENOUGH = 0.9
+"""Share of the ways round loops after which the others, which come near to where assemblies meet, are given up."""
 TOGETHER, ROUNDS = 16, 12
 """Loops that are gone round at once, until none of them leads to anything new; and how often at most."""
+LINES = 4
+"""Lines of inputs, one after the other, while the trace says that some are missing: what only few loops of one line
+lead to is near on another."""
+NEARLY_ALL, ENOUGH_PLACES = 0.995, 0.8
+"""The same share of the ways to places of the trace, and the share of the places that all assemblies reach."""
+FEW_PLACES = 20
+"""Places at which the trace is asked first: enough for one of a low degree, as most are."""
 MOST = 4000
 """Assemblies times the square of the joint coordinates up to which all are followed: with more it takes minutes."""
 
@@ -93,28 +102,39 @@ def assemblies_by_monodromy(
     (6, True)
     """
     rng = np.random.default_rng(seed)
-    loops = ComplexLoops(record, problem, given, random_complex(rng, len(given)))
-    begun = state_of(record, known.T).astype(complex)
-    begun = begun[:, loops.regularity(begun) > REGULAR]
-    base = np.exp(2j * np.pi * rng.uniform())
-    start = np.zeros(begun.shape[1], dtype=complex)
-    state = _led(loops, begun, start, start + base)
-    if not state.shape[1]:
-        return None
-    degree = None
-    for _ in range(ROUNDS):
-        more = _round_loops(loops, state, base, rng)
-        if _too_many(record, more.shape[1]):
+    state = state_of(record, known.T).astype(complex)
+    for _ in range(LINES):
+        loops = ComplexLoops(record, problem, given, random_complex(rng, len(given)))
+        base = np.exp(2j * np.pi * rng.uniform())
+        start = np.zeros(state.shape[1], dtype=complex)
+        regular = loops.regularity(state) > REGULAR
+        state = _led(loops, state[:, regular], start[regular], start[regular] + base)
+        if not state.shape[1]:
+            return None
+        state, degree = _along_line(loops, state, base, rng)
+        ends = followed(loops, state, np.full(state.shape[1], base), np.zeros(state.shape[1], dtype=complex))
+        if degree is not None or _too_many(record, state.shape[1]):
             break
-        quiet, state = more.shape[1] == state.shape[1], more
-        degree = _trace_degree(loops, state, base, rng) if quiet else None
-        if degree is not None:
-            break
-    ends = followed(loops, state, np.full(state.shape[1], base), np.zeros(state.shape[1], dtype=complex))
+        state = ends.state[:, ends.arrived]
     real = ends.arrived & (np.max(np.abs(ends.state.imag), axis=0) < REAL)
     joints = values_of(record, ends.state[:, real].real).T
     lost = int(np.sum(~ends.arrived & ~ends.infinite))
-    return MonodromySolutions(joints, state.shape[1], int(np.sum(ends.infinite)), degree, lost)
+    return MonodromySolutions(joints, len(real), int(np.sum(ends.infinite)), degree, lost)
+
+
+def _along_line(
+    loops: ComplexLoops, state: ComplexArray, base: complex, rng: np.random.Generator
+) -> tuple[ComplexArray, int | None]:
+    """All assemblies (k, N) at the base that loops lead to from some, and the degree of their trace."""
+    for _ in range(ROUNDS):
+        more = _round_loops(loops, state, base, rng)
+        quiet, state = more.shape[1] == state.shape[1], more
+        if _too_many(loops.record, state.shape[1]):
+            break
+        degree = _trace_degree(loops, state, base, rng, thorough=quiet)
+        if quiet or degree is not None:
+            return state, degree
+    return state, None
 
 
 @stage("assemblies followed round loops of complex inputs")
@@ -162,11 +182,11 @@ def _anywhere(rng: np.random.Generator, count: int) -> ComplexArray:
     return random_complex(rng, count) * np.exp(rng.uniform(-SIZES, SIZES, count))
 
 
-def _led(loops: ComplexLoops, state: ComplexArray, *corners: ComplexArray) -> ComplexArray:
+def _led(loops: ComplexLoops, state: ComplexArray, *corners: ComplexArray, enough: float = 1.0) -> ComplexArray:
     """The assemblies to which ways (N,) from corner to corner lead, each once; those that are lost are left out."""
     left = np.arange(state.shape[1])
     for start, end in pairwise(corners):
-        ends = followed(loops, state, start[left], end[left])
+        ends = followed(loops, state, start[left], end[left], enough=enough)
         state, left = ends.state[:, ends.arrived], left[ends.arrived]
     return state[:, _distinct(loops.places(state))]
 
@@ -185,22 +205,37 @@ def _round_loops(loops: ComplexLoops, state: ComplexArray, base: complex, rng: n
     count = state.shape[1]
     start = np.full(TOGETHER * count, base)
     first, second = (np.repeat(_anywhere(rng, TOGETHER), count) for _ in range(2))
-    both = np.concatenate([state, _led(loops, np.tile(state, (1, TOGETHER)), start, first, second, start)], axis=1)
+    led = _led(loops, np.tile(state, (1, TOGETHER)), start, first, second, start, enough=ENOUGH)
+    both = np.concatenate([state, led], axis=1)
     return both[:, _distinct(loops.places(both))]
 
 
-def _trace_degree(loops: ComplexLoops, state: ComplexArray, base: complex, rng: np.random.Generator) -> int | None:
-    """Degree of the sum over assemblies of a function by chance; None where it is no rational function.
+def _trace_degree(
+    loops: ComplexLoops, state: ComplexArray, base: complex, rng: np.random.Generator, *, thorough: bool
+) -> int | None:
+    """Degree of the sum over assemblies of a function by chance; None where it is no rational function of a low degree.
 
-    Its places are led to by ways by chance, so that other assemblies would be missing in each.
+    With `thorough` of any degree.
     """
-    count, most = state.shape[1], 6 * state.shape[1] + 48
-    ends, by_way = circle(most), _anywhere(rng, most)
+    few = _degree_at(FEW_PLACES, loops, state, base, rng)
+    return few if few is not None or not thorough else _degree_at(6 * state.shape[1] + 48, loops, state, base, rng)
+
+
+def _degree_at(
+    most: int, loops: ComplexLoops, state: ComplexArray, base: complex, rng: np.random.Generator
+) -> int | None:
+    """That degree, told by so many places.
+
+    They are led to by ways by chance, so that other assemblies would be missing in each.
+    """
+    count = state.shape[1]
+    ends, by_way = scattered(rng, most), _anywhere(rng, most)
     start = np.tile(state, (1, most))
-    half = followed(loops, start, np.full(count * most, base), np.repeat(by_way, count))
-    whole = followed(loops, half.state, np.repeat(by_way, count), np.repeat(ends, count))
-    if not np.all(half.arrived & whole.arrived):
+    half = followed(loops, start, np.full(count * most, base), np.repeat(by_way, count), enough=NEARLY_ALL)
+    whole = followed(loops, half.state, np.repeat(by_way, count), np.repeat(ends, count), enough=NEARLY_ALL)
+    reached = np.all((half.arrived & whole.arrived).reshape(most, count), axis=1)
+    if np.mean(reached) < ENOUGH_PLACES:
         return None
     places = loops.places(whole.state)
-    weights = random_complex(rng, places.shape[1])
-    return rational_degree((places @ weights).reshape(most, count).sum(axis=1))
+    traces = (places @ random_complex(rng, places.shape[1])).reshape(most, count).sum(axis=1)
+    return rational_degree(ends[reached], traces[reached])

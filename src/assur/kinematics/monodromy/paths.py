@@ -18,8 +18,8 @@ CLOSE = 2e-2
 so that no path jumps to another one."""
 EASY = 2e-3
 """A correction below which the next step may be longer."""
-CLOSED = 1e-9
-"""Newton's last step, of which the next would be its square."""
+CLOSED = 1e-6
+"""Newton's last step: the next would be its square."""
 CORRECTIONS = 4
 FIRST, SHORTEST = 0.05, 1e-7
 """Steps, as shares of a path."""
@@ -38,14 +38,19 @@ class ComplexPaths:
     infinite: BoolArray
 
 
-def followed(loops: ComplexLoops, state: ComplexArray, start: ComplexArray, end: ComplexArray) -> ComplexPaths:
-    """Assemblies (k, N) at start (N,) on the line of inputs or poses followed straight to end (N,)."""
+def followed(
+    loops: ComplexLoops, state: ComplexArray, start: ComplexArray, end: ComplexArray, *, enough: float = 1.0
+) -> ComplexPaths:
+    """Assemblies (k, N) at start (N,) on the line of inputs or poses followed straight to end (N,).
+
+    Once this share of them is at its end, the others are given up.
+    """
     state, count = state.copy(), state.shape[1]
     way, share, step = end - start, np.zeros(count), np.full(count, FIRST)
     infinite = np.zeros(count, dtype=bool)
     for _ in range(MOST_STEPS):
         left = np.flatnonzero((share < 1.0) & (step > SHORTEST) & ~infinite)
-        if not len(left):
+        if not len(left) or np.sum(share >= 1.0) >= enough * count:
             break
         length = np.minimum(step[left], 1.0 - share[left])
         t, dt = start[left] + share[left] * way[left], length * way[left]
@@ -71,7 +76,7 @@ def _stepped(
         rates = loops.step(new, t + dt)
         last = np.max(np.abs(rates), axis=1)
         largest = np.maximum(largest, last)
+        new = loops.at(loops.moved(new, new, rates), t + dt)
         if not np.any((last > CLOSED) & (largest <= CLOSE)):
             break
-        new = loops.at(loops.moved(new, new, rates), t + dt)
-    return new, largest, (largest <= CLOSE) & (last <= np.sqrt(CLOSED))
+    return new, largest, (largest <= CLOSE) & (last <= CLOSED)
