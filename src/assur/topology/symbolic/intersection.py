@@ -10,13 +10,13 @@ from assur.topology.poc import Mark, PocSet
 from assur.topology.symbolic.lasting import as_it_lasts
 from assur.topology.symbolic.limb_steps import limb_derivation
 from assur.topology.symbolic.marks import MOVING
-from assur.topology.symbolic.motion import Limb, Mode, Motion, check_mode
+from assur.topology.symbolic.motion import Limb, Mode, Motion, check_mode, motion_of
 from assur.topology.symbolic.operation_modes import HeldLimbs, as_written, unturned
 from assur.topology.symbolic.orientations import EVERY, Orientations
 from assur.topology.symbolic.platform_set import is_helical, platform_set
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spans import ALL, NOTHING
-from assur.topology.symbolic.subgroups import share_a_sphere, that_hold_back
+from assur.topology.symbolic.subgroups import parts_that_all_allow, share_a_sphere, that_hold_back
 
 
 def parallel(
@@ -73,6 +73,8 @@ def _held(limbs: Sequence[Limb], mode: Mode, at: str) -> Motion | Refusal:
     poc = platform_set(assembly.limbs, assembly.resisted, at)
     if isinstance(poc, Refusal):
         return poc
+    if any(_is_another(motion_of(part), poc) for part in parts_that_all_allow(limbs)):
+        return Refusal("limbs share a point, and from the position as written part of a limb moves on by itself")
     moved, turned, taken = assembly.resisted.forces.complement, assembly.turned, assembly.taken
     if assembly.from_platform:
         moved, turned, taken = moved.turned(None), turned.turned(None), Orientations(taken.dim)
@@ -80,6 +82,11 @@ def _held(limbs: Sequence[Limb], mode: Mode, at: str) -> Motion | Refusal:
         poc = replace(poc, t_mark=moving[0], r_mark=moving[1])
     helical = is_helical(assembly.limbs, assembly.resisted)
     return Motion(moved, turned, taken, freedoms=poc.dim, given=poc, helical=helical)
+
+
+def _is_another(motion: Motion | Refusal, poc: PocSet) -> bool:
+    """Whether a motion has as many freedoms as a POC set, or more, and is not that one."""
+    return isinstance(motion, Motion) and motion.dim >= poc.dim and (motion.poc.r, motion.dim) != (poc.r, poc.dim)
 
 
 def _about_a_point(motions: Sequence[Motion], at: str) -> Motion | None:

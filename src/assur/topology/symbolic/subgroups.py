@@ -8,8 +8,8 @@ other one does not allow too, M ∩ M' = M, wherever the joints of the other one
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from assur.topology.directions import Vector, parallel, span
@@ -68,16 +68,22 @@ def word(chain: Sequence[Elementary]) -> tuple[Subgroup, ...] | None:
     >>> [(letter.axis, letter.slides.dim) for letter in letters]
     [((1.0, 0.0, 0.0), 0), ((0.0, 0.0, 1.0), 2)]
     """
-    letters: list[Subgroup] = []
-    left = list(chain)
+    runs = _runs(chain)
+    return None if runs is None else tuple(letter for letter, _ in runs)
+
+
+def _runs(chain: Sequence[Elementary]) -> list[tuple[Subgroup, tuple[Elementary, ...]]] | None:
+    """The subgroups of a chain with what each of them is made of."""
+    found: list[tuple[Subgroup, tuple[Elementary, ...]]] = []
+    left = tuple(chain)
     while left:
-        runs = ((count, _one(left[:count])) for count in range(len(left), 0, -1))
-        count, letter = next(((count, letter) for count, letter in runs if letter is not None), (0, None))
+        tried = ((count, _one(left[:count])) for count in range(len(left), 0, -1))
+        count, letter = next(((count, letter) for count, letter in tried if letter is not None), (0, None))
         if letter is None:
             return None
-        letters.append(letter)
-        del left[:count]
-    return tuple(letters)
+        found.append((letter, left[:count]))
+        left = left[count:]
+    return found
 
 
 def within(word_of_one: Sequence[Subgroup], other: Sequence[Subgroup]) -> bool:
@@ -105,6 +111,33 @@ def that_hold_back(limbs: Sequence[Limb]) -> tuple[Limb, ...]:
         if letters is not None and any(within(other, letters) for other in others if other is not None):
             kept.remove(index)
     return tuple(limbs[index] for index in kept)
+
+
+def parts_that_all_allow(limbs: Sequence[Limb]) -> Iterator[Limb]:
+    """Limbs with some of their subgroups at rest, which all other limbs allow: motions that start at home."""
+    if not any(first.labels & second.labels for first, second in combinations(limbs, 2)):
+        return
+    words = [word(limb.chain) for limb in limbs]
+    for index, limb in enumerate(limbs):
+        runs = _runs(limb.chain) or []
+        others = [other and _beside_balls(other) for other in words[:index] + words[index + 1 :]]
+        for count in range(1, len(runs)):
+            for moving in combinations(runs, count):
+                letters = [letter for letter, _ in moving]
+                if all(other is not None and within(letters, other) for other in others):
+                    chain = tuple(part for _, parts in moving for part in parts)
+                    yield replace(limb, chain=chain, structure=structure(chain), freedoms=len(chain))
+
+
+def _beside_balls(letters: Sequence[Subgroup]) -> tuple[Subgroup, ...]:
+    """The same product, slides in a plane beside a ball as the planar group: the ball rotates about its normal too."""
+    beside = [letters[max(place - 1, 0) : place + 2] for place in range(len(letters))]
+    return tuple(
+        replace(letter, axis=letter.slides.normal)
+        if letter.axis is None and len(letter.slides.fixed) == 2 and any(other.ball for other in others)
+        else letter
+        for letter, others in zip(letters, beside, strict=True)
+    )
 
 
 def axes_through(label: str, chain: Sequence[Elementary]) -> list[Vector | None]:
