@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from assur.machine.free_motion import FreeMotion
     from assur.machine.prescribed_motion import PrescribedMotion
     from assur.machine.release import Release
+    from assur.machine.small_motions import SmallMotions
     from assur.machine.stiffness import Stiffness
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
@@ -128,6 +129,12 @@ class Mechanism(MechanismRecord):
         from assur.machine.free_motion import free_motion
 
         return free_motion(self, release, mode, **options)
+
+    def small_motions(self, pose: ArrayLike, mode: str | None = None, **options: Any) -> SmallMotions:
+        """Small motions about a held pose (m,): see `assur.machine.small_motions.small_motions` for the options."""
+        from assur.machine.small_motions import small_motions
+
+        return small_motions(self, pose, mode, **options)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""

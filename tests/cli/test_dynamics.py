@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.pose import pose_of
 from assur.machine.motion_file import read_motion
+from assur.machine.small_motions import small_motions
 
 CIRCLE = (
     "[harmonic]\ncentre = [-15, 10, 400]\namplitude = [20, 30, 0]\nomega = 6\nphase = [0, 1.5707963, 0]\ncount = 9\n"
@@ -96,3 +98,19 @@ def test_wrong_words_are_told(assur_cli, written, words, said, code):
     run = assur_cli("dynamics", "zeng2019", *words)
     assert run.code == code
     assert said in run.err
+
+
+def test_small_motions_about_a_pose_are_those_of_the_library(assur_cli):
+    run = assur_cli("dynamics", "linear_delta_4s", "--linear", "--json")
+    record = assur.load("linear_delta_4s")
+    about = small_motions(record, pose_of(record, record.home_values))
+    data = run.json
+    assert (run.code, data["stable"], data["status"]) == (0, True, "regular")
+    np.testing.assert_allclose(data["stiffness_matrix"], about.stiffness, atol=1e-6)
+    assert data["frequencies"] == pytest.approx(about.frequencies.tolist())
+    assert "swings, friction left aside, at 0.9" in assur_cli("dynamics", "linear_delta_4s", "--linear").out
+    away = assur_cli("dynamics", "zeng2019", "--linear", "--pose", "0", "0", "5000", "--json")
+    assert (away.code, away.json["stable"], away.json["frequencies"]) == (4, None, [])
+    assert "it runs away" in assur_cli("dynamics", "zeng2019", "--linear", "--pose", "-15", "10", "400").out
+    assert "--linear: about one pose" in assur_cli("dynamics", "zeng2019", "--linear", "--forward").err
+    assert "--pose: the file" in assur_cli("dynamics", "zeng2019", "--pose", "0", "0", "400").err

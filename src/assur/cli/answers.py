@@ -14,7 +14,7 @@ from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
 from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
 from assur.results.answers.derivation import DerivationAnswer, VerifiedDerivation
-from assur.results.answers.dynamics import DynamicsAnswer
+from assur.results.answers.dynamics import DynamicsAnswer, LinearMotionAnswer
 from assur.results.answers.files import (
     EndedView,
     WrittenExport,
@@ -56,7 +56,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "derive": (DerivationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
-    "dynamics": (DynamicsAnswer,),
+    "dynamics": (DynamicsAnswer, LinearMotionAnswer),
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),

@@ -1,4 +1,4 @@
-"""`assur dynamics`: forces along a motion in time, and the motion by given forces."""
+"""`assur dynamics`: forces along a motion in time, the motion by given forces, small motions about a pose."""
 
 from __future__ import annotations
 
@@ -21,6 +21,13 @@ def dynamics(
     forward: Annotated[
         bool, Parameter(help="Let the mechanism run by the forces of the file, or by those that its motion asks for.")
     ] = False,
+    linear: Annotated[
+        bool, Parameter(help="Small motions about --pose while the actuators hold it by forces that stay as they are.")
+    ] = False,
+    pose: Annotated[
+        tuple[str, ...],
+        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose of --linear; home's if left out."),
+    ] = (),
     mode: WorkingMode = None,
     load: Load = None,
     no_gravity: NoGravity = False,
@@ -43,11 +50,14 @@ def dynamics(
     force, speed and power. With --forward the equation of motion is integrated,
     loops closed at every step, from rest at pose = .. until t_end = .., by
     constant [forces] or by t and values in it; a limit or a singularity ends it.
+    With --linear: M a + C v + K x = 0 about a pose that constant forces hold, C of
+    viscous friction; its poles, frequencies without C, whether it is stable.
     Exit code 6: it ended before its end; 4: the mode does not reach the start.
 
     For example:
         assur dynamics delta_4s --motion circle.toml -o forces.csv
         assur dynamics zeng2019 --motion fall.toml --forward
+        assur dynamics linear_delta_4s --linear
     """
     record = shared.mechanism(mechanism)
     from pathlib import Path
@@ -57,6 +67,14 @@ def dynamics(
 
     mode = mode or record.modes.default_working
     acting = wrench(load), not no_gravity
+    if linear:
+        from assur.cli import linearised
+
+        if motion is not None or forward or output is not None or no_limits:
+            raise UsageError("--linear: about one pose", hint="leave out --motion, --forward, --no-limits and -o")
+        return linearised.outcome(record, pose, mode, acting)
+    if pose:
+        raise UsageError("--pose: the file of --motion says where it begins", hint="or ask for --linear")
     if motion is None:
         raise UsageError("--motion is missing", hint="--motion motion.toml, with [harmonic], [samples] or [forces]")
     from assur.cli import timed

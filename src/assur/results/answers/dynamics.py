@@ -71,3 +71,28 @@ class DynamicsAnswer(AnswerOfMechanism):
     notes: tuple[str, ...]
     files: tuple[str, ...]
     units: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class LinearMotionAnswer(AnswerOfMechanism):
+    """Small motions about a pose with the actuators' forces held: M a + C v + K x = 0 per rate of the pose.
+
+    `frequencies` are of those that swing, in Hz, ascending, C left aside; `stable` whether none grows. `poles` are
+    pairs of real and imaginary part in 1/s. All are null where there is no such equation.
+    """
+
+    pose: Numbers
+    mode: str
+    status: str
+    input_names: tuple[str, ...]
+    load: Numbers
+    under_gravity: bool
+    actuator_forces: Row
+    mass_matrix: tuple[Row, ...]
+    damping_matrix: tuple[Row, ...]
+    stiffness_matrix: tuple[Row, ...]
+    poles: tuple[Row, ...]
+    frequencies: Numbers
+    stable: bool | None
+    notes: tuple[str, ...]
+    units: Mapping[str, str]
