@@ -11,8 +11,11 @@ from shown import OUTPUT, printed, rounded
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
 NAMES = [path.relative_to(DOCS).as_posix() for path in PAGES]
-STEP = re.compile(r"<!-- edit: (\S+) -> (\S+): (.*?) -->|" + OUTPUT.pattern, re.DOTALL)
-"""What a page does, in its order: a file that is copied with words replaced, and a command with what it prints."""
+STEP = re.compile(
+    r"<!-- edit: (\S+) -> (\S+): (.*?) -->|<!-- file: (\S+) -->\n```toml\n(.*?)```|" + OUTPUT.pattern, re.DOTALL
+)
+"""What a page does, in its order: a file that is copied with words replaced, or that is shown; and a command with what
+it prints."""
 
 
 def text_of(path):
@@ -35,9 +38,11 @@ SAYING = [path for path in PAGES if OUTPUT.search(text_of(path)) or "\n>>> " in 
 def test_what_it_shows_is_what_comes_out(path, capsys, tmp_path, monkeypatch):
     """Its commands one after the other in one folder, as a reader would take them, then its Python there."""
     monkeypatch.chdir(tmp_path)
-    for source, target, changes, command, shown in STEP.findall(text_of(path)):
+    for source, target, changes, file, content, command, shown in STEP.findall(text_of(path)):
         if source:
             edit(source, target, changes)
+        elif file:
+            Path(file).write_text(content, encoding="utf-8")
         else:
             assert rounded(printed(command, capsys)) == rounded(shown), command
     assert doctest.testfile(str(path), module_relative=False, encoding="utf-8").failed == 0

@@ -14,6 +14,7 @@ from assur.machine.loads import load_of
 from assur.machine.prescribed_motion import sampled
 from assur.machine.release import Release
 from assur.model.pose import LENGTHS, rate_names
+from catalogue import each
 from weighed import weighed
 
 WRENCH = [3.0, -4.0, 5.0, 0.6, 0.7, -0.8]
@@ -44,6 +45,7 @@ def test_what_is_left_to_itself_keeps_its_energy_and_needs_no_forces(record):
     assert np.abs(asked.forces).max() <= 1e-8 * np.abs(held.forces).max()
 
 
+@pytest.mark.parametrize("mechanism", each(), indirect=True)
 def test_the_work_of_actuators_and_load_is_the_change_of_energy(record):
     """Along a smooth motion through poses that were met before: work is integrated, energies are those of places."""
     away = -0.04 * np.sin(np.linspace(0.0, 2.0, 25))[:, None] * np.ones(len(record.platform.pose))

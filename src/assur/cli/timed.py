@@ -7,6 +7,7 @@ import io
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,6 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.departure import Departure
 from assur.machine.dynamics import MotionForces, dynamics
 from assur.machine.forces import force_units
-from assur.machine.free_motion import FreeMotion, free_motion
 from assur.machine.masses import masses
 from assur.machine.motion_file import MotionFile
 from assur.machine.prescribed_motion import PrescribedMotion
@@ -38,11 +38,14 @@ from assur.results.files import write_whole
 from assur.results.json_text import plain
 from assur.results.plain_text import count, short
 
+if TYPE_CHECKING:
+    from assur.machine.free_motion import FreeMotion
+
 FloatArray = NDArray[np.float64]
 ROWS = 12
 """Moments that a person sees; --json and files have all."""
 ROUNDED = 1e-12
-"""Share of the largest number in a column below which one is zero."""
+"""Share of the largest number of a unit below which one is zero."""
 
 
 def outcome(
@@ -64,6 +67,8 @@ def outcome(
         answer = _of_prescribed(record, asked, mode, acting)
         release = _as_asked(asked, motion) if forward and asked.departure is None else None
     if release is not None:
+        from assur.machine.free_motion import free_motion  # with the integrators of SciPy
+
         answer = _of_free(record, free_motion(record, release, mode, acting[0], **options), mode, acting, motion)
     if path is not None and answer.t:
         content = rows_text(answer) if path.suffix.lower() == ".csv" else _drawn(record, answer, path)
@@ -81,7 +86,7 @@ def _as_asked(asked: MotionForces, motion: PrescribedMotion) -> Release:
     """The start of a motion, and what it asks the actuators for."""
     pose, velocity, _ = (part[0] for part in motion.at(motion.times[:1]))
     exerted = forces_in_time(asked.times, asked.forces, smooth=True)
-    return Release(pose, velocity, float(asked.times[-1]), exerted, float(asked.times[0]))
+    return Release(pose, velocity, float(asked.times[-1]), exerted, float(asked.times[0]), len(asked.times))
 
 
 def _of_prescribed(
@@ -306,5 +311,8 @@ def _moments(record: Mechanism, answer: DynamicsAnswer) -> RenderableType:
     titles += [f"{name} [{unit}]" for name, unit in zip(answer.input_names, force_units(record), strict=True)]
     picked = sorted({round(place) for place in np.linspace(0, len(answer.t) - 1, ROWS)})
     numbers = np.column_stack([answer.t, answer.pose, answer.actuator_forces])
-    numbers[np.abs(numbers) <= ROUNDED * np.abs(numbers).max(axis=0)] = 0.0
+    alike = np.array(["s", *units, *force_units(record)])
+    for unit in set(alike.tolist()):
+        block = numbers[:, alike == unit]
+        numbers[:, alike == unit] = np.where(np.abs(block) <= ROUNDED * np.abs(block).max(), 0.0, block)
     return table(("t [s]", *titles), [[short(value) for value in numbers[k]] for k in picked])

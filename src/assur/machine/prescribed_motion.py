@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import make_interp_spline
 
 from assur.errors import UsageError
 from assur.kinematics import border
@@ -23,6 +22,8 @@ A_PERIOD = 64
 """Moments in the shortest period, so that the largest values are met within 0.2 %."""
 MOST = 20_000
 """Moments at most."""
+BACK = 1e-3
+"""Of a turn: so near to where it began a coordinate is back, as a file has few digits of omega."""
 PERIODS = 12
 """So many periods of the slowest coordinate at most until all are where they began; else so many are looked at."""
 LEAST = 4
@@ -128,6 +129,8 @@ def sampled(record: MechanismRecord, times: ArrayLike, poses: ArrayLike) -> Pres
     [[2.0, 0.0]]
     """
     given = border.checked_poses(record, poses)
+    from scipy.interpolate import make_interp_spline  # which takes half a second to load
+
     moments = np.asarray(times, dtype=float)
     if moments.ndim != 1 or given.ndim != 2 or len(moments) != len(given) or len(given) < LEAST:
         raise UsageError(
@@ -145,7 +148,7 @@ def _whole_period(speeds: FloatArray) -> float:
     slowest = 2.0 * np.pi / float(speeds.min())
     for number in range(1, PERIODS):
         turns = number * speeds / speeds.min()
-        if np.all(np.abs(turns - np.round(turns)) < 1e-9 * turns):
+        if np.all(np.abs(turns - np.round(turns)) < BACK):
             return number * slowest
     return PERIODS * slowest
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 FloatArray = NDArray[np.float64]
 Forces = Callable[[float], FloatArray]
@@ -43,5 +42,7 @@ def forces_in_time(times: FloatArray, values: FloatArray, *, smooth: bool = Fals
     >>> forces_in_time(np.array([0.0, 2.0]), np.array([[1.0], [3.0]]))(0.5).tolist()
     [1.5]
     """
+    from scipy.interpolate import make_interp_spline  # which takes half a second to load
+
     curve = make_interp_spline(times, values, k=min(SMOOTH, len(times) - 1) if smooth else 1)
     return lambda time: np.asarray(curve(np.clip(time, times[0], times[-1])))
