@@ -19,14 +19,11 @@ class ClosedFormDeclaration(ClosedFormParts):
 
     def text(self) -> str:
         """The lines of `CLOSED_FORM`."""
-        record = self.formulas.inverse.symbols.record
-        reduced = bool(record.generalised) or bool(self.formulas.joints.pointings)
+        reduced = [*self._assumptions()]
         lines = ["CLOSED_FORM = ClosedForm("]
         lines.append(f'    complete_for="{"reduced" if reduced else "joint_graph"}",')
         if reduced:
-            lines.append(
-                '    reduced_because="parallelograms stay such, and what they keep from turning is not turned over",'
-            )
+            lines.append(f'    reduced_because="{"; ".join(reduced)}",')
         eliminant = self.eliminant
         if eliminant is None:
             lines.append("    direct=direct,")
@@ -68,6 +65,14 @@ class ClosedFormDeclaration(ClosedFormParts):
             lines += self._motion_declaration(self.motion)
         lines.append(")")
         return "\n".join(lines)
+
+    def _assumptions(self) -> Iterator[str]:
+        """What is left out, in words."""
+        if self.formulas.inverse.symbols.record.generalised or self.formulas.joints.pointings:
+            yield "parallelograms stay such, and what they keep from turning is not turned over"
+        reasons = (own for part in (self.formulas.direct, self.formulas.inverse) for own in part.placed.reasons)
+        if any(own.other_way is not None for own in reasons):
+            yield "links that axes along three directions keep from turning stand as at home"
 
     def _motion_declaration(self, motion: CoincidenceMotion) -> Iterator[str]:
         if self.meanings is not None and self.meanings.self_motion_groups:

@@ -26,8 +26,6 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
         yield "axes that links share which turn in space"
     if any(own.kind == "rod" for own in loops.strokes.values()):
         yield "rods whose length is sought"
-    if any(own.third is not None for own in placed.reasons):
-        yield "links that do not turn because three directions close"
     turned = placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
     if solution.symbols.problem == "inverse" and turned:
         yield "a platform of whose orientation the pose says a part"
