@@ -44,6 +44,10 @@ UNLIKE = {
     "rails that are oblique": ["P[1,0,1] P(4S)[y]", "P[y] P(4S)[x]", "P[z] P(4S)[y]"],
     "an Orthoglide": ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
     "hinges along short links": ["P[y] R[z] P(4R)[x] R[z]", "C[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
+    "two drives in one limb": ["R[z] R[z] R[z]", "R[z] R[z] P[x]"],
+    "a limb with a loop in it across three directions": [
+        "R[x] R[x] C[x]", "{P[y] R[z] R[z] | P[y] R[z] R[z]} R[y] R[y]",
+    ],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
 }  # fmt: skip
 APART = 1e-6
@@ -205,3 +209,10 @@ def test_in_print_no_root_bears_a_name_that_its_sign_is_a_part_of(tmp_path):
     record = draft_of(parse_chains(UNLIKE["a sign that is a product of roots"]), tmp_path)
     (own,) = printed_derivation(record, {"direct": analytic_solution(record, "direct")}, {}).problems
     assert len(own.written.meanings) == len(own.written.solution.roots) - 1
+
+
+@pytest.mark.deep
+def test_a_closed_form_says_that_links_which_three_directions_hold_stand_as_at_home(tmp_path):
+    text = derived_closed_form(draft_of(parse_chains(UNLIKE["a limb with a loop in it"]), tmp_path))
+    form = names_of(text, tmp_path / "closed_form.py")["CLOSED_FORM"]
+    assert (form.complete_for, "three directions" in form.reduced_because) == ("reduced", True)

@@ -16,6 +16,7 @@ from assur.derivation.angle_eliminant import AngleEliminant
 from assur.derivation.definitions import Definition
 from assur.derivation.linear import ONE, Form, divided, never_zero, rank, solved, tidy, value_of
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 from assur.numerics.vectors import add, cross, dot, scaled, subtract
@@ -245,9 +246,12 @@ class _Set:
             self._define(known, tidy(d / divisor))
             self._define(other, self._root(1 - known**2, other))
             return
+        whole = shorter({ONE: a**2 + b**2}, self.witness.circles, self.witness)[ONE]
         a, b, d = self._named("J", a), self._named("K", b), self._named("L", d)
-        square = self._named("N", a**2 + b**2)
-        self.conditions.append(square)
+        steady = never_zero(whole)
+        square = self._named("N", whole if steady else a**2 + b**2)
+        if not steady:
+            self.conditions.append(square)
         root = self._root(square - d**2, a * sine - b * cosine)
         self._define(cosine, (a * d - b * root) / square)
         self._define(sine, (b * d + a * root) / square)

@@ -18,6 +18,7 @@ from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.sets import equations_alone, next_set
 from assur.derivation.strokes import StrokeVector, with_strokes
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.mechanism import MechanismRecord
 
@@ -141,6 +142,7 @@ class _Order:
     def _solved(self, number: int, chosen: Sequence[UnknownDirection], equations: Sequence[Form]) -> SolvedSet:
         """A set by square roots, else by one polynomial."""
         self.chosen = tuple(chosen)
+        equations = [shorter(form, self.symbols.circles, self.witness) for form in equations]
         try:
             return solution(number, chosen, equations, self.witness, self.taken)
         except NotDerivedError as error:

@@ -24,7 +24,7 @@ from assur.derivation.orientations import LinkOrientations, orientations
 from assur.derivation.sets_in_order import SetProblem
 from assur.derivation.strokes import stroke_vectors
 from assur.derivation.symbols import GivenSymbols
-from assur.derivation.trigonometric import reduced
+from assur.derivation.trigonometric import shorter
 from assur.derivation.witness import ModularWitness, NoResidueRootError
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
@@ -187,8 +187,8 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     lengths, short = projected(
         forms if turned else sparse(forms, witness, everywhere=bool(loops.framed)), fixed, witness
     )
-    lengths = {length: _shorter(form, symbols) for length, form in lengths.items()}
-    short = [*axes, *sparse([divided(_shorter(form, symbols)) for form in short], witness)]
+    lengths = {length: shorter(form, symbols.circles, witness) for length, form in lengths.items()}
+    short = [*axes, *sparse([divided(shorter(form, symbols.circles, witness)) for form in short], witness)]
     _refuse_oblique(short, loops)
     sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
     known = {**loops.oblique, **{symbol: value_of(form) for symbol, form in lengths.items()}}
@@ -227,16 +227,6 @@ def _refuse_oblique(forms: Sequence[Form], loops: LoopEquations) -> None:
             raise NotDerivedError(
                 f"{name} slides oblique to the axis about which it turns, and no vector alone says how far"
             )
-
-
-def _shorter(form: Form, symbols: GivenSymbols) -> Form:
-    """Coefficients modulo cos^2 + sin^2 = 1 of what is given, where they are shorter so."""
-    short = dict(form)
-    for circle in symbols.circles:
-        whole = {key: part for key, part in short.items() if part.has(*circle) and part.is_polynomial(*circle)}
-        plain = {key: reduced(part, circle, symbols.witness) for key, part in whole.items()}
-        short |= {key: min(short[key], part, key=sympy.count_ops) for key, part in plain.items()}
-    return short
 
 
 def _more_than(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import sympy
 
+from assur.derivation.linear import Form
+from assur.derivation.symbols import Circle
 from assur.derivation.witness import ModularWitness
 
 Powers = tuple[int, int]
@@ -43,6 +45,21 @@ def reduced(formula: sympy.Expr, circle: tuple[sympy.Symbol, ...], witness: Modu
     cosine, sine = circle
     terms = trigonometric_terms(formula, circle, witness)
     return sum((factor * cosine**i * sine**j for (i, j), factor in terms.items()), sympy.Integer(0))
+
+
+def shorter(form: Form, circles: Sequence[Circle], witness: ModularWitness) -> Form:
+    """Coefficients modulo cos^2 + sin^2 = 1 of angles that are given, where they are shorter so.
+
+    >>> c, s, a, x = sympy.symbols("c s a x")
+    >>> shorter({x: a * c**2 + a * s**2}, [(c, s)], ModularWitness())
+    {x: a}
+    """
+    short = dict(form)
+    for circle in circles:
+        whole = {key: part for key, part in short.items() if part.has(*circle) and part.is_polynomial(*circle)}
+        plain = {key: reduced(part, circle, witness) for key, part in whole.items()}
+        short |= {key: min(short[key], part, key=sympy.count_ops) for key, part in plain.items()}
+    return short
 
 
 def homogeneous(formula: sympy.Expr, degrees: Mapping[sympy.Symbol, int], one: sympy.Expr) -> tuple[sympy.Expr, int]:

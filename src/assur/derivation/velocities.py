@@ -258,16 +258,18 @@ class _Velocities:
             yield unknown, rate
 
     def _carried(self, joint: Joint) -> sympy.Expr:
-        """The rate of what carries a driven joint, about the axis of its child. Errors: NotDerivedError."""
+        """The rate of what carries a driven joint, about the axis of its child."""
         carrier, child = (self.solution.placed.links[link] for link in (joint.parent, joint.child))
         if carrier.axis is None or child.axis is None:
             return sympy.Integer(0)
         direction = self._circle(joint.parent)
-        if direction in self._driven():
-            driven = next(own for own in self.record.inputs if own.coordinate.joint == joint.name)
-            raise NotDerivedError(f"{driven.name} turns about what another input turns")
-        rate = sympy.Symbol(f"d_angle_{direction.name}", real=True)
         same = all(map(self.witness.is_zero, subtract(carrier.axis, child.axis)))
+        for driven, input_rate in zip(self.record.inputs, self.inputs, strict=True):
+            turned = self.record.joints[driven.coordinate.joint]
+            if driven.coordinate.kind == "angle" and self._circle(turned.child) == direction:
+                own = self._sense(turned.name) * int(driven.sign) * input_rate + self._carried(turned)
+                return own if same else -own
+        rate = sympy.Symbol(f"d_angle_{direction.name}", real=True)
         if rate not in self.passive:
             self.passive.append(rate)
             self.carriers[direction] = rate

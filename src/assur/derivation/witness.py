@@ -56,6 +56,11 @@ class ModularWitness:
                 return
             self.field = PrimeField.drawn(self._random, self._least)
 
+    @property
+    def circles(self) -> tuple[tuple[sympy.Symbol, sympy.Symbol], ...]:
+        """Cosine and sine of each angle that has a value."""
+        return tuple(self._circles)
+
     def on_circle(self, cosine: sympy.Symbol, sine: sympy.Symbol) -> None:
         """Two symbols are cosine and sine of one angle."""
         self._circles.append((cosine, sine))
