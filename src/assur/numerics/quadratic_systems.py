@@ -14,10 +14,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import combinations_with_replacement
 
 import numpy as np
 from numpy.typing import NDArray
+
+from assur.numerics.macaulay import macaulay_matrix, monomials, places, times
 
 ComplexArray = NDArray[np.complex128]
 
@@ -66,13 +67,7 @@ def quadratic(forms: ComplexArray) -> Roots:
     turn = _unitary(size)
     turned = np.einsum("ia,kij,jb->kab", turn, forms, turn)
     degree = size  # n (2 - 1) + 1, with n = size - 1
-    rows, columns = _monomials(size, degree - 2), _places(size, degree)
-    matrix = np.zeros((len(forms), len(rows), len(columns)), dtype=complex)
-    for number, row in enumerate(rows):
-        for first in range(size):
-            for second in range(size):
-                matrix[:, number, columns[_times(row, first, second)]] += turned[:, first, second]
-    found = _roots(matrix.reshape(-1, len(columns)), 2 ** (size - 1), size, degree, 1)
+    found = _roots(macaulay_matrix(turned, degree), 2 ** (size - 1), size, degree, 1)
     if found is None:
         return Roots(np.zeros((0, len(chart) - 1), dtype=complex), 2 ** (size - 1), isolated=False)
     whole = found @ turn.T
@@ -127,11 +122,11 @@ def bilinear(forms: ComplexArray) -> Roots:
     turn, other = _unitary(size), _unitary(size, seed=1)
     turned = np.einsum("ia,kij,jb->kab", turn, forms, other)
     degree = 1 if loops == 1 else loops + 1  # so that one degree lower the roots are independent already
-    rows, columns = _monomials(size, degree - 1), _places(size, degree)
+    rows, columns = monomials(size, degree - 1), places(size, degree)
     matrix = np.zeros((len(forms), len(rows), len(columns), size), dtype=complex)
     for number, row in enumerate(rows):
         for first in range(size):
-            matrix[:, number, columns[_times(row, first)]] += turned[:, first]
+            matrix[:, number, columns[times(row, first)]] += turned[:, first]
     found = _roots(matrix.reshape(len(forms) * len(rows), -1), count, size, degree, size)
     if found is None:
         return Roots(np.zeros((0, 2 * loops), dtype=complex), count, isolated=False)
@@ -152,9 +147,9 @@ def _roots(matrix: ComplexArray, count: int, size: int, degree: int, inner: int)
     if null is None:
         return None
     null = null.reshape(-1, inner, count)
-    places = _places(size, degree)
+    numbers = places(size, degree)
     shifted = [
-        null[[places[_times(row, index)] for row in _monomials(size, degree - 1)]].reshape(-1, count)
+        null[[numbers[times(row, index)] for row in monomials(size, degree - 1)]].reshape(-1, count)
         for index in range(size)
     ]
     return common_eigenvalues([shifted]).T
@@ -194,24 +189,6 @@ def _error(forms: ComplexArray, x: ComplexArray, y: ComplexArray) -> float:
 
 def _finite(roots: ComplexArray) -> NDArray[np.bool_]:
     return np.asarray(np.abs(roots[:, 0]) > AT_INFINITY * np.max(np.abs(roots), axis=1))
-
-
-Monomial = tuple[int, ...]
-"""A product of homogeneous variables, by their indices in rising order."""
-
-
-@lru_cache(maxsize=64)
-def _monomials(size: int, degree: int) -> tuple[Monomial, ...]:
-    return tuple(combinations_with_replacement(range(size), degree))
-
-
-@lru_cache(maxsize=64)
-def _places(size: int, degree: int) -> dict[Monomial, int]:
-    return {item: number for number, item in enumerate(_monomials(size, degree))}
-
-
-def _times(monomial: Monomial, *others: int) -> Monomial:
-    return tuple(sorted((*monomial, *others)))
 
 
 @lru_cache(maxsize=64)

@@ -1,10 +1,11 @@
 """All poses that conditions leave, complex ones counted.
 
-Linear forms are solved first; n - 1 quadrics in the n coordinates that are left have 2^(n-1) common zeros. Where there
-are more quadrics than that, the same number of combinations of them by chance have all poses among their zeros, each
-as isolated as it was. Four coordinates are solved by elimination, more by homotopy from x_i^2 = c_i x_0^2. Six sums of
-|p|^2, p, R' p, R and 1 have forty zeros that are poses, and are followed from those (`sections.toml`): the degree of
-the rigid motions in the space of these sums (M. Gallet, G. Nawratil, J. Schicho 2015; F. Ronga, T. Vust 1995).
+Linear forms are solved first; n - 1 quadrics in the n coordinates that are left have 2^(n-1) common zeros. Four
+coordinates are solved by elimination, more by homotopy from x_i^2 = c_i x_0^2. Where there are more quadrics than that,
+ranks of their multiples tell the poses apart from what is at infinity; or the same number of combinations of them by
+chance are solved, which have all poses among their zeros, each as isolated as it was. Six sums of |p|^2, p, R' p, R and
+1 have forty zeros that are poses, and are followed from those (`sections.toml`): the degree of the rigid motions in the
+space of these sums (M. Gallet, G. Nawratil, J. Schicho 2015; F. Ronga, T. Vust 1995).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from assur.model.file.toml_source import read_toml
 from assur.numerics.expanded import ExpandedSystem
 from assur.numerics.homotopy import PathEnd, solve
 from assur.numerics.monodromy import all_solutions, random_complex
+from assur.numerics.overdetermined_quadrics import zeros_apart
 from assur.numerics.path_tracking import polished
 from assur.numerics.quadratic_systems import quadratic
 from assur.numerics.rotations import cross
@@ -115,6 +117,9 @@ def _zeros(conditions: Conditions, forms: FloatArray, chart: FloatArray, rng: np
     free = chart.shape[1] - 1
     if free == len(forms) == SIZE - 1 and len(conditions.spheres) == FREEDOMS:
         return _followed(_sections(conditions.spheres, rng), start()[1], chart)
+    apart = zeros_apart(forms, chart[:4].T @ chart[:4]) if len(forms) > free >= ELIMINATED else None
+    if apart is not None:
+        return _Zeros(apart, np.ones(len(apart), dtype=bool), 0, np.full(len(apart), INFINITE))
     combined = _combined(forms, free, rng)
     solved = _eliminated(combined) if free < ELIMINATED else None
     return solved if solved is not None else _followed(*_from_squares(combined, rng), chart)
