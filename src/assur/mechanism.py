@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from assur.machine.dynamics import MotionForces
     from assur.machine.forces import ActuatorForces
     from assur.machine.free_motion import FreeMotion
+    from assur.machine.pose_errors import PoseErrors
     from assur.machine.prescribed_motion import PrescribedMotion
     from assur.machine.release import Release
     from assur.machine.small_motions import SmallMotions
@@ -135,6 +136,12 @@ class Mechanism(MechanismRecord):
         from assur.machine.small_motions import small_motions
 
         return small_motions(self, pose, mode, **options)
+
+    def errors(self, pose: ArrayLike, mode: str | None = None) -> PoseErrors:
+        """How errors of dimensions and inputs move the platform: see `assur.machine.pose_errors.pose_errors`."""
+        from assur.machine.pose_errors import pose_errors
+
+        return pose_errors(self, pose, mode)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""

@@ -18,6 +18,7 @@ COMMANDS = (
         "synthesize",
         "forces",
         "stiffness",
+        "errors",
         "dynamics",
     ),
     *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),

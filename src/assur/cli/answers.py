@@ -15,6 +15,7 @@ from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
 from assur.results.answers.derivation import DerivationAnswer, VerifiedDerivation
 from assur.results.answers.dynamics import DynamicsAnswer, LinearMotionAnswer
+from assur.results.answers.errors import ErrorsAnswer
 from assur.results.answers.files import (
     EndedView,
     WrittenExport,
@@ -57,6 +58,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
     "dynamics": (DynamicsAnswer, LinearMotionAnswer),
+    "errors": (ErrorsAnswer,),
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),

@@ -89,12 +89,13 @@ def written_geometry(record: MechanismRecord, reading: NumberReading) -> Geometr
     >>> written_geometry(load_record("fivebar"), reading).joints["A1"].at
     (-70.0, 0, 0)
     """
-    joints = {name: _written_joint(joint, reading) for name, joint in record.joints.items()}
+    joints = {name: written_joint(joint, reading) for name, joint in record.joints.items()}
     point = record.platform.written
     return Geometry(joints, point.vector(reading) if point else STILL, 1)
 
 
-def _written_joint(joint: Joint, reading: NumberReading) -> JointGeometry:
+def written_joint(joint: Joint, reading: NumberReading) -> JointGeometry:
+    """The dimensions of one joint over any number type, by its formulas."""
     own = joint.written
     if own is None:
         raise ValueError(f"no formulas of joint {joint.name}")

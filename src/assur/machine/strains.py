@@ -76,9 +76,10 @@ class Strains:
                 apart[:, beam, range(6), range(first, first + 6)] += sense
         signs = own.paths[ends[:, 1]] - own.paths[ends[:, 0]]
         apart[..., own.unknowns - len(self.scales) :] = self.screws[:, None] * signs[:, None]
-        return self._in_axes(apart)
+        return self.in_axes(apart)
 
-    def _in_axes(self, apart: FloatArray) -> FloatArray:
+    def in_axes(self, apart: FloatArray) -> FloatArray:
+        """Strains (N, E, 6, k) of the beams, of twists of their second ends' bodies against their first ends'."""
         axes, lever = self.beam_axes, (self.beam_ends - self.point[:, None]) / self.length
         turned = np.swapaxes(axes, -1, -2)
         moved = apart[..., 3:, :] + _crossing(lever, apart[..., :3, :])

@@ -1,0 +1,136 @@
+"""Errors at a pose as data and as a person reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import RenderableType
+
+from assur.cli import exit_codes
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.positions import failures
+from assur.cli.quantities import mode_words
+from assur.kinematics.answers.answer import missing
+from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
+from assur.kinematics.answers.style import style_of
+from assur.kinematics.status import Status
+from assur.machine.pose_errors import COORDINATES, PoseErrors
+from assur.mechanism import Mechanism
+from assur.model.pose import LENGTHS
+from assur.results.answers.errors import ErrorsAnswer, Row
+from assur.results.json_text import plain
+from assur.results.plain_text import short
+
+ROUNDED = 1e-9
+"""Beside a displacement by as much as the error itself, or a rotation by that over the mechanism's size."""
+NOT_HELD = "the inputs do not hold the platform here: an error may move it without bound"
+
+
+def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
+    """Errors at a pose (m,), in lengths and rad."""
+    solved = record.errors(pose, mode)
+    answer = _answer(record, pose, mode, solved)
+    return Outcome(answer, lambda: _shown(record, answer, pose), exit_codes.of_status(answer.status))
+
+
+def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: PoseErrors) -> ErrorsAnswer:
+    held = solved.status == Status.regular
+    summed = held and bool(record.machine.tolerances)
+    return ErrorsAnswer(
+        **mechanism_header(record),
+        pose=tuple(pose_at_border(record, pose).tolist()),
+        mode=mode,
+        status=solved.status.name,
+        input_names=tuple(item.name for item in record.drives),
+        sensitivity={name: tuple(plain(row)) for name, row in solved.sensitivity.items()},
+        per=solved.units,
+        compatible={name: solved.compatible(name) for name in solved.sensitivity},
+        self_stress={
+            name: {joint: tuple(wrench.tolist()) for joint, wrench in stress.items()}
+            for name, stress in solved.stresses.items()
+        },
+        elastic=solved.settled,
+        worst_case=_named(solved.worst_case) if summed else None,
+        root_sum_square=_named(solved.root_sum_square) if summed else None,
+        covariance=plain(solved.covariance) if summed else None,
+        clearances={joint: tuple(row.tolist()) for joint, row in solved.clearances.items()},
+        failures=missing(record, record.inverse(pose, mode).failures) if solved.status == Status.unreachable else (),
+        notes=tuple(_notes(record, solved)),
+        units={
+            "pose": ", ".join(record.unit if name in LENGTHS else record.angle for name in record.platform.pose),
+            "sensitivity": f"x, y, z in {record.unit}, rx, ry, rz in rad, per unit of the dimension or input",
+            "self_stress": "force 1, moment m",
+            "worst_case": f"{record.unit}, rad",
+            "root_sum_square": f"{record.unit}, rad",
+            "covariance": f"{record.unit}2, {record.unit} rad, rad2",
+            "clearances": f"{record.unit}, rad",
+        },
+    )
+
+
+def _named(row: NDArray[Any]) -> dict[str, float | None]:
+    return dict(zip(COORDINATES, plain(row), strict=True))
+
+
+def _notes(record: Mechanism, solved: PoseErrors) -> Iterable[str]:
+    if solved.status == Status.parallel:
+        yield NOT_HELD
+    if solved.status != Status.regular:
+        return
+    open_names = [name for name, row in solved.sensitivity.items() if np.isnan(row[0])]
+    if open_names and any(name in record.machine.tolerances for name in open_names):
+        yield "a tolerance is of what does not assemble alone: no sums; give profiles to links, or name another copy"
+    if not record.machine.tolerances:
+        yield "the file states no tolerances: sensitivities alone"
+
+
+def _shown(record: Mechanism, answer: ErrorsAnswer, pose: NDArray[Any]) -> Iterable[RenderableType]:
+    yield heading(f"{answer.mechanism}, errors: {answer.status}")
+    place = style_of(record).pose(answer.coordinates, pose_at_border(record, pose).tolist())
+    yield f"at {place}, {mode_words(record, answer.mode)}, inputs held"
+    yield ""
+    if answer.failures:
+        yield failures(answer.failures)
+    yield from (f"note: {note}" for note in answer.notes)
+    if answer.sensitivity:
+        yield from _sensitivities(answer)
+        yield from _sums(answer)
+
+
+def _sensitivities(answer: ErrorsAnswer) -> Iterable[RenderableType]:
+    rows = [
+        (f"{name}{'*' if not answer.compatible[name] else ''}", answer.per[name], *_cleared(row))
+        for name, row in answer.sensitivity.items()
+    ]
+    yield table(("error of one", "in", *_columns(answer)), rows, left=("error of one", "in"))
+    if answer.self_stress:
+        yield "* does not assemble alone: a stress that balances itself bears it, in the joints"
+        for name, stress in answer.self_stress.items():
+            yield f"  {name}: {', '.join(stress)}"
+        settled = len(answer.elastic)
+        if settled:
+            yield f"  their numbers are where links that bend by their profiles settle ({settled} of them)"
+
+
+def _sums(answer: ErrorsAnswer) -> Iterable[RenderableType]:
+    sums: list[tuple[str, Mapping[str, float | None]]] = []
+    if answer.worst_case and answer.root_sum_square:
+        sums += [("worst case", answer.worst_case), ("root sum square", answer.root_sum_square)]
+    rows = [(name, *(short(value) for value in row.values())) for name, row in sums]
+    rows += [(f"clearance of {joint}", *map(short, row)) for joint, row in answer.clearances.items()]
+    if rows:
+        yield ""
+        yield table(("with the file's tolerances", *_columns(answer)), rows, left=("with the file's tolerances",))
+        yield "first order: no bound is proved"
+
+
+def _columns(answer: ErrorsAnswer) -> tuple[str, ...]:
+    return tuple(f"{name} [{answer.unit if name in LENGTHS else 'rad'}]" for name in COORDINATES)
+
+
+def _cleared(row: Row) -> tuple[str, ...]:
+    return tuple(short(0.0 if value is not None and abs(value) < ROUNDED else value) for value in row)

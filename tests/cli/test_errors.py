@@ -1,0 +1,62 @@
+"""`assur errors`: the same as the library says, readable, and refused where it must be."""
+
+import numpy as np
+import pytest
+
+import assur
+
+POSE = ("-15.4714", "9.6849", "456.3315")
+
+
+@pytest.fixture(scope="module")
+def toleranced(tmp_path_factory):
+    """The five-bar with tolerances and a clearance."""
+    path = tmp_path_factory.mktemp("toleranced") / "own.toml"
+    text = assur.load("fivebar").file.read_text(encoding="utf-8")
+    path.write_text(f'{text}\n[tolerances]\nl1 = 0.05\n"rod1.l2" = 0.02\n[clearances]\nB1 = 0.01\n', encoding="utf-8")
+    return str(path)
+
+
+def test_numbers_are_those_of_the_library(assur_cli):
+    run = assur_cli("errors", "zeng2019", "--pose", *POSE, "--json")
+    own = assur.load("zeng2019").errors([float(text) for text in POSE])
+    data = run.json
+    assert (run.code, data["status"], data["mode"]) == (0, "regular", "++-++")
+    assert list(data["sensitivity"]) == list(own.sensitivity)
+    for name, row in own.sensitivity.items():
+        assert np.array(data["sensitivity"][name]) == pytest.approx(row, abs=1e-12)
+    assert all(data["compatible"].values())
+    assert (data["worst_case"], data["covariance"]) == (None, None)
+    assert data["per"]["yA1"] == "mm"
+    assert data["units"].keys() <= data.keys()
+
+
+def test_what_does_not_assemble_is_called_so(assur_cli):
+    data = assur_cli("errors", "orthoglide", "--pose", "0", "0", "0", "--json").json
+    name = "leg1.rod_a.L"
+    assert (data["compatible"][name], data["compatible"]["leg1.L"], name in data["elastic"]) == (False, True, True)
+    assert len(data["self_stress"][name]["leg1.Da"]) == 6
+    out = assur_cli("errors", "orthoglide", "--pose", "0", "0", "0").out
+    assert "leg1.rod_a.L*" in out
+    assert "does not assemble alone" in out
+    assert "where links that bend by their profiles settle" in out
+
+
+def test_tolerances_and_clearances_are_summed(assur_cli, toleranced):
+    run = assur_cli("errors", toleranced, "--pose", "0", "224", "--json")
+    data = run.json
+    rows = np.abs([data["sensitivity"][name] for name in ("l1", "rod1.l2")])
+    assert list(data["worst_case"]) == ["x", "y", "z", "rx", "ry", "rz"]
+    assert list(data["worst_case"].values()) == pytest.approx(rows.T @ [0.05, 0.02])
+    assert np.shape(data["covariance"]) == (6, 6)
+    assert len(data["clearances"]["B1"]) == 6
+    out = assur_cli("errors", toleranced, "--pose", "0", "224").out
+    for word in ("worst case", "root sum square", "clearance of B1", "no bound is proved"):
+        assert word in out
+
+
+def test_bad_input_is_refused(assur_cli):
+    assert assur_cli("errors", "fivebar").code == 2
+    far = assur_cli("errors", "fivebar", "--pose", "0", "900", "--json")
+    assert (far.code, far.json["sensitivity"], far.json["status"]) == (4, {}, "unreachable")
+    assert far.json["failures"]
