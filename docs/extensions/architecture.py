@@ -18,7 +18,7 @@ PICTURE = Path("docs") / "images" / "architecture.svg"
 
 STOREYS = {
     "what is drawn, written, printed": "cli view page report audit figures crosscheck export scene",
-    "a mechanism with its analyses": "mechanism derived_topology",
+    "a mechanism with its analyses": "mechanism improved_topology derived_topology",
     "analyses": "synthesis derivation certificates machine workspace singularity performance kinematics",
     "a mechanism as data": "joint_graph model topology joints",
     "tools": "results numerics cache storage errors verifier version work",

@@ -319,3 +319,14 @@ def test_a_mechanism_with_one_mode_has_one(assur_cli):
     assert (mode["name"], mode["at_home"], mode["coupling_degree"]) == ("3T", True, 1)
     assert [mode["poc"][part] for part in ("t", "r", "dim")] == [3, 0, 3]
     assert "not proved to be all" in assur_cli("topology", "tripteron", "--modes").out
+
+
+def test_neighbours_are_listed_with_the_command_that_asks_for_the_first(assur_cli):
+    five_bar = chains("R[z] R[z] R[z]", "R[z] R[z]")
+    run = assur_cli("topology", *five_bar, "--improve")
+    assert "neighbours with the same motion" in run.out
+    command = next(line for line in run.out.splitlines() if line.startswith("the first: assur "))
+    again = assur_cli(*shlex.split(command.removeprefix("the first: assur ")), "--json")
+    first = assur_cli("topology", *five_bar, "--improve", "--json").json["improvements"][0]
+    assert again.json["redundant_constraints"] == first["redundant_constraints"]
+    assert "improvements" not in again.json

@@ -37,6 +37,13 @@ def topology(
     modes: Annotated[
         bool, Parameter(help="Also list its operation modes, wherever it can be assembled: met by chance.")
     ] = False,
+    improve: Annotated[
+        bool,
+        Parameter(
+            help="Also list neighbours with the same motion that are better in κ, redundancy or decoupling: a joint"
+            " relaxed, joints merged, limbs joined, other joints driven."
+        ),
+    ] = False,
     graph: Annotated[
         str | None, Parameter(metavar="FILE", help="Also draw links and joints into this .svg, .pdf or .png file.")
     ] = None,
@@ -58,6 +65,7 @@ def topology(
         assur topology zeng2019 --graph zeng2019.svg
         assur topology three_upu --modes
         assur topology three_upu --mode 3R
+        assur topology planar_3rrr --improve
         assur topology --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
         assur topology --chain "P[x] R[x] R[x] R[x]" \
             --chain "P[y] R[y] R[y] R[y]" --chain "P[z] R[z] R[z] R[z]"
@@ -68,12 +76,15 @@ def topology(
     from assur.cli.paths import output_file
     from assur.derived_topology import operation_modes
     from assur.derived_topology import topology as derive
+    from assur.improved_topology import improvements
 
     path = output_file(graph, ENDINGS) if graph is not None else None
     asked = _asked(what, chain)
     derived = derive(asked, actuate=_actuators(actuate), mode=mode)
     met = operation_modes(asked) if modes else None
-    return topology_answer.outcome(derived, path, met, latex=latex, ascii_only=ascii_)
+    better = improvements(asked, actuate=_actuators(actuate), mode=mode) if improve else None
+    also = topology_answer.Asked(path, met, better)
+    return topology_answer.outcome(derived, also, latex=latex, ascii_only=ascii_)
 
 
 def _asked(what: str | None, chain: Sequence[str]) -> str | tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from textwrap import wrap
 
@@ -14,7 +14,8 @@ from rich.padding import Padding
 from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, console, heading, table
-from assur.results.answers.topology import MetMode
+from assur.improved_topology import zeros
+from assur.results.answers.topology import Improvement, MetMode
 from assur.results.plain_text import count, signed
 from assur.topology.answers import answers, replacements_by_kind
 from assur.topology.characteristics import characteristics
@@ -25,6 +26,9 @@ Said = Callable[[str], str]
 """A text as it is printed: as it is, or in plain letters."""
 
 _LONG = re.compile(r"-?\d+\.\d{5,}")
+
+LISTED = 20
+"""Neighbours that are printed."""
 
 WIDEST = 12
 """Letters of the longest name of a characteristic."""
@@ -41,23 +45,32 @@ def shortened(text: str) -> str:
     return _LONG.sub(lambda number: f"{float(number[0]):.4g}", text)
 
 
-def outcome(
-    topology: Topology, graph: Path | None, modes: tuple[MetMode, ...] | None, *, latex: bool, ascii_only: bool
-) -> Outcome:
-    """The answer, with operation modes where they are given; the graph is written where a path is given."""
+@dataclass(frozen=True)
+class Asked:
+    """What was asked for beside the facts: a drawing of the graph, operation modes, neighbours; None where not."""
+
+    graph: Path | None = None
+    modes: tuple[MetMode, ...] | None = None
+    improvements: tuple[Improvement, ...] | None = None
+
+
+def outcome(topology: Topology, also: Asked, *, latex: bool, ascii_only: bool) -> Outcome:
+    """The answer, with what else was asked for; the graph is written where a path is given."""
     data = answers(topology)
-    if modes is not None:
-        data = replace(data, modes=modes, notes=(*data.notes, NOT_ALL))
+    if also.modes is not None:
+        data = replace(data, modes=also.modes, notes=(*data.notes, NOT_ALL))
+    if also.improvements is not None:
+        data = replace(data, improvements=also.improvements)
     wrong = 1 if any(note.startswith("declared ") for note in topology.notes) else 0  # a claim of the file fails
-    if graph is not None:
-        _draw(topology, graph)
-        data = replace(data, graph=str(graph))
+    if also.graph is not None:
+        _draw(topology, also.graph)
+        data = replace(data, graph=str(also.graph))
     if latex:
         from assur.topology.latex import fragment
 
         text = fragment(topology)
         return Outcome(replace(data, latex=text), lambda: [Verbatim(text)], wrong)
-    return Outcome(data, lambda: _shown(topology, graph, modes, ascii_only=ascii_only), wrong)
+    return Outcome(data, lambda: _shown(topology, also, ascii_only=ascii_only), wrong)
 
 
 def _draw(topology: Topology, path: Path) -> None:
@@ -71,24 +84,45 @@ def _draw(topology: Topology, path: Path) -> None:
     write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
 
 
-def _shown(
-    topology: Topology, graph: Path | None, modes: tuple[MetMode, ...] | None, *, ascii_only: bool
-) -> Iterable[RenderableType]:
+def _shown(topology: Topology, also: Asked, *, ascii_only: bool) -> Iterable[RenderableType]:
     say: Said = ascii_text if ascii_only else str
     yield heading(say(_title(topology)))
     yield from _characteristics(topology, say)
-    for title, part in PARTS.items():
-        lines = list(part(topology, say))
+    parts = {title: part(topology, say) for title, part in PARTS.items()}
+    if also.modes is not None:
+        parts["operation modes"] = _modes(also.modes, say)
+    if also.improvements is not None:
+        parts["neighbours with the same motion"] = _improvements(topology, also.improvements, say)
+    for title, part in parts.items():
+        lines = list(part)
         if lines:
             yield ""
             yield heading(title)
             yield from map(ascii_rule, lines) if ascii_only else lines
-    if modes is not None:
-        yield ""
-        yield heading("operation modes")
-        yield from map(ascii_rule, _modes(modes, say)) if ascii_only else _modes(modes, say)
-    if graph is not None:
-        yield f"written: {graph}"
+    if also.graph is not None:
+        yield f"written: {also.graph}"
+
+
+def _improvements(topology: Topology, found: tuple[Improvement, ...], say: Said) -> Iterator[RenderableType]:
+    if not found:
+        yield "no single change that was tried makes it better"
+        return
+    rows = [
+        (say(item.change), str(item.coupling_degree), str(item.redundant_constraints.joint_graph), str(item.zeros))
+        for item in found[:LISTED]
+    ]
+    yield table(("change", say("κ"), "redundant", "zeros"), rows, left=("change",), wrap=("change",))
+    more = f"; {len(found) - LISTED} more in --json" if len(found) > LISTED else ""
+    own = (topology.coupling_degree, topology.redundant_constraints.joint_graph, zeros(topology))
+    degree, redundant, unused = ("-" if number is None else str(number) for number in own)
+    yield say(f"as it is: κ {degree}, redundant {redundant} of all joints, zeros {unused} of the decoupling{more}")
+    yield Verbatim(f"the first: assur topology {_written(found[0])}")
+
+
+def _written(item: Improvement) -> str:
+    """The options that ask for a neighbour."""
+    chains = " ".join(f'--chain "{text}"' for text in item.chains)
+    return f"{chains} --actuate {','.join(item.actuate)}"
 
 
 def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:

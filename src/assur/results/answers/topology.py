@@ -269,6 +269,22 @@ class PlanAnswer:
 
 
 @dataclass(frozen=True)
+class Improvement:
+    """A mechanism with one thing changed that moves the same way, and what of it is `better`.
+
+    `zeros` counts pairs of an output and an input that have nothing to do with each other.
+    """
+
+    change: str
+    chains: Names
+    actuate: Names
+    coupling_degree: int | None
+    redundant_constraints: RedundantConstraints
+    zeros: int
+    better: Names
+
+
+@dataclass(frozen=True)
 class RulesRefusal:
     """Of what the rules gave no answer, and why."""
 
@@ -284,7 +300,7 @@ class TopologyAnswer(Answer):
     of the platform is without; `freedom_type` is full, partial or separable. `alike` are limbs with the same joints,
     drives and relations, `conditions` the geometric ones that F and the POC set need.
     `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
-    was written, `latex` a fragment for a paper; `modes` are there where they are asked for.
+    was written, `latex` a fragment for a paper; `modes` and `improvements` are there where they are asked for.
     """
 
     name: str
@@ -323,6 +339,7 @@ class TopologyAnswer(Answer):
     operation_modes: tuple[OperationModeFacts, ...]
     notes: Names
     modes: tuple[MetMode, ...] | Absent = ABSENT
+    improvements: tuple[Improvement, ...] | Absent = ABSENT
     graph: str | Absent = ABSENT
     latex: str | Absent = ABSENT
 
