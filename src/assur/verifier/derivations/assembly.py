@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from assur.verifier.derivations.turning import ClaimedTurn, Hop, IsZero, Triangle, hops, point
@@ -117,7 +117,26 @@ class FileAssembly:
                 turn = product(turn, about(axis, self.given[f"cos_{name}"], self.given[f"sin_{name}"]))
         return turn
 
-    def triangle(self, claim: Mapping[str, Any], constant: Matrix) -> Triangle:
+    def claimed(
+        self, own: Mapping[str, Any], orientations: Sequence[Mapping[str, Any]], vector: Callable[[Any], Vector]
+    ) -> ClaimedTurn:
+        """An orientation as it is written, one of several; its vectors are read."""
+
+        def constant(other: Mapping[str, Any]) -> Matrix:
+            a, b, c = map(vector, other["constant"])
+            return a, b, c
+
+        axis, hinge, line = (None if own[key] is None else vector(own[key]) for key in ("axis", "hinge", "line"))
+        circle, rod, second = (
+            None if own.get(key) is None else tuple(map(str, own[key])) for key in ("circle", "rod", "second")
+        )
+        triangle = None
+        if "triangle" in own:
+            leader = next(other for other in orientations if other["link"] == own["triangle"]["link"])
+            triangle = self._triangle(own["triangle"], constant(leader))
+        return ClaimedTurn(own["link"], own["kind"], constant(own), axis, circle, hinge, line, rod, second, triangle)
+
+    def _triangle(self, claim: Mapping[str, Any], constant: Matrix) -> Triangle:
         """Balls of a link that is turned by a constant in the frame of its orientation. Errors: RefusedError."""
         link, names = str(claim["link"]), [str(name) for name in claim["joints"]]
         joints = [self.mechanism.joints[name] for name in names]

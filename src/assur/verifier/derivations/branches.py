@@ -9,16 +9,17 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
-from assur.verifier.derivations.turning import ClaimedTurn, Triangle, same
+from assur.verifier.derivations.turning import same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
 from assur.verifier.mechanism import FileMechanism
 from assur.verifier.reading import RefusedError
-from assur.verifier.vectors import Matrix, Vector, apply, product, subtract, transposed
+from assur.verifier.vectors import Vector, apply, product, subtract
 
 TRIES = 200
 """Places that are drawn until every radicand has a root there."""
@@ -145,7 +146,9 @@ class _DrawnBranches:
         for name, text in proof["units"].items():
             if not _zero(self._value(text, values)):
                 raise RefusedError(f"{name} is not 1 in every branch")
-        turns = {own["link"]: self._turn(own, values) for own in proof["orientations"]}
+        claims = proof["orientations"]
+        read = partial(self._vector, values)
+        turns = {own["link"]: self.assembly.claimed(own, claims, read) for own in claims}
         sliding = {name: values[own] for name, own in proof["sliding"].items()}
         gaps, _ = self.assembly.loops(turns, values, sliding)
         if not all(map(_zero, gaps)):
@@ -159,29 +162,11 @@ class _DrawnBranches:
             if hop.axis is None:
                 fits = same(after, end, _zero)
             else:
-                own = apply(transposed(hop.after), hop.axis)
-                fits = all(map(_zero, subtract(apply(after, own), apply(end, own))))
+                fits = all(map(_zero, subtract(apply(start, hop.axis), apply(end, hop.back.axis or hop.axis))))
             if not fits:
                 raise RefusedError(f"{hop.start} and {hop.end} are turned as their joint does not let them")
 
-    def _turn(self, own: Mapping[str, Any], values: Mapping[str, Any]) -> ClaimedTurn:
-        axis, hinge, line = (
-            None if own[key] is None else self._vector(own[key], values) for key in ("axis", "hinge", "line")
-        )
-        a, b, c = (self._vector(row, values) for row in own["constant"])
-        constant: Matrix = (a, b, c)
-        circle, rod = (None if own[key] is None else tuple(own[key]) for key in ("circle", "rod"))
-        second = tuple(own["second"]) if "second" in own else None
-        triangle = self._triangle(own["triangle"], values) if "triangle" in own else None
-        return ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second, triangle)
-
-    def _triangle(self, claim: Mapping[str, Any], values: Mapping[str, Any]) -> Triangle:
-        every = self.problem["proof"]["orientations"]
-        leader = next(other for other in every if other["link"] == claim["link"])
-        a, b, c = (self._vector(row, values) for row in leader["constant"])
-        return self.assembly.triangle(claim, (a, b, c))
-
-    def _vector(self, parts: Sequence[str], values: Mapping[str, Any]) -> Vector:
+    def _vector(self, values: Mapping[str, Any], parts: Sequence[str]) -> Vector:
         x, y, z = (self._value(part, values) for part in parts)
         return x, y, z
 

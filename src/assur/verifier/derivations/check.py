@@ -31,7 +31,7 @@ from assur.verifier.derivations.turning import ClaimedTurn
 from assur.verifier.formula import AngleSum
 from assur.verifier.mechanism import FileMechanism, mechanism
 from assur.verifier.reading import MalformedError, RefusedError, printable
-from assur.verifier.vectors import ONE, apply, dot, subtract, transposed
+from assur.verifier.vectors import ONE, dot, subtract
 
 FORMAT, VERSION = "assur derivation", 1
 
@@ -233,8 +233,7 @@ class _ProblemCheck(KnownFormulas):
         for hop in self.assembly.hops:
             if hop.axis is None or hop.joint != claim["joint"] or not {hop.start, hop.end} <= turns.keys():
                 continue
-            inside = apply(transposed(hop.after), hop.axis)
-            ends = ((hop.start, hop.axis), (hop.end, inside))
+            ends = ((own.start, own.axis or hop.axis) for own in (hop, hop.back))
             first, second = (turns[link].image(axis, self.known, self.zero) for link, axis in ends)
             gap = term(dot((x, y, z), subtract(first, second)))
             if self.zero(row - gap) or self.zero(row + gap):
@@ -252,13 +251,11 @@ class _ProblemCheck(KnownFormulas):
         later = self.unknowns - self.earlier.keys() - self.circles
         everything = dict(self.known)
         choices = {own["root"]: own for own in given["choices"]}
-        self._conditions(given["conditions"])
         formulas = self._formulas(given, choices, later)
-        self._conditions_read(given, formulas)
+        self._conditions(given["conditions"], formulas, choices)
         self.known = everything | {name: symbol(name) for name in formulas}
         quantities = {root: term(self.read(own["quantity"])) for root, own in choices.items()}
         self.values |= quantities
-        self.names |= {name: own for name, own in formulas.items() if name not in later and name not in choices}
         equations = {f"e{k}": self._equation(text) for k, text in enumerate(given["equations"], start=1)}
         lines = {f"l{k}": self._equation(text) for k, text in enumerate(given["lines"], start=1)}
         self._follow(equations, proved["equations"], self.loops)
@@ -278,7 +275,6 @@ class _ProblemCheck(KnownFormulas):
             raise RefusedError(f"nothing says what {', '.join(sorted(unknowns - formulas.keys()))} is")
         for root in choices:
             del self.values[root]
-            self.numbers.squares[root] = formulas[root]
         self.earlier |= {name: own for name, own in formulas.items() if name in later}
         self.numbers.squares |= {name: own for name, own in self.squares.items() if name in formulas}
         if given["roots"] != (count := degree * 2 ** len(choices)):
@@ -323,9 +319,7 @@ class _ProblemCheck(KnownFormulas):
             if name in choices:
                 if text != f"sqrt({choices[name]['radicand']})":
                     raise RefusedError(f"{name} is no root of its radicand")
-                formulas[name] = symbol(choices[name]["radicand"])
-                if choices[name]["radicand"] not in self.known:
-                    raise RefusedError(f"{name} is the root of what is not known")
+                formulas[name] = term(self.read(choices[name]["radicand"]))
             else:
                 formulas[name] = term(self.read(text))
             self.known[name] = symbol(name)
@@ -333,21 +327,16 @@ class _ProblemCheck(KnownFormulas):
             raise RefusedError("choices without a root")
         return formulas
 
-    def _conditions(self, texts: Sequence[str]) -> None:
+    def _conditions(self, texts: Sequence[str], formulas: Mapping[str, Term], choices: Mapping[str, Any]) -> None:
+        """Conditions are formulas of what is known with the set; then what formulas are divided by is looked at."""
+        known = formulas.keys() - self.unknowns - choices.keys()
+        self.names |= {name: own for name, own in formulas.items() if name in known}
+        self.numbers.squares |= {root: formulas[root] for root in choices}
         for text in texts:
             if not text.endswith(" != 0"):
                 raise RefusedError(f"{text[:60]!r} is no condition")
             self.conditions.append(text)
-
-    def _conditions_read(self, given: Mapping[str, Any], formulas: Mapping[str, Term]) -> None:
-        """Conditions are formulas of what is known with the set; then what formulas are divided by is looked at."""
-        self.names |= {
-            name: own
-            for name, own in formulas.items()
-            if name not in self.unknowns and name not in {c["root"] for c in given["choices"]}
-        }
-        self.numbers.squares |= {own["root"]: formulas[own["root"]] for own in given["choices"]}
-        self.allowed += [term(self.read(text.removesuffix(" != 0"))) for text in given["conditions"]]
+            self.allowed.append(term(self.read(text.removesuffix(" != 0"))))
         for name, own in formulas.items():
             for divisor in divisors([own]):
                 if not self.nonzero(divisor):

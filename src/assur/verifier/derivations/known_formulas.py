@@ -61,7 +61,7 @@ class KnownFormulas:
     def levels(self) -> Iterator[dict[str, Term]]:
         """Symbols and what they stand for: by itself, with names of what names say, with all, with what is solved."""
         yield self.values
-        if composed := {name: own for name, own in self.names.items() if self._of_names(own)}:
+        if composed := {name: own for name, own in self.names.items() if {*symbols_of([own])} <= self.names.keys()}:
             yield {**composed, **self.values}
         if self.names:
             yield {**self.names, **self.values}
@@ -75,10 +75,6 @@ class KnownFormulas:
             if any(other in circle or other in turning for other in symbols_of([own])):
                 turning[name] = own
         return {**turning, **self.values}
-
-    def _of_names(self, own: Term) -> bool:
-        """Whether a formula has names in it and nothing else."""
-        return all(name in self.names for name in symbols_of([own]))
 
     def quotients(self, terms: Iterable[Term], level: Mapping[str, Term]) -> Quotients:
         """Quotients of polynomials for some terms."""

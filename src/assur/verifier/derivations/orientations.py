@@ -32,7 +32,7 @@ class OrientationCheck:
         self._holders: dict[str, tuple[str, list[str]]] = {}
 
     def _vector(self, parts: Any) -> Vector:
-        x, y, z = (_plain(self.formulas.read(part)) for part in parts)
+        x, y, z = (self._entry(self.formulas.read(part)) for part in parts)
         return x, y, z
 
     def _matrix(self, rows: Any) -> Matrix:
@@ -40,16 +40,13 @@ class OrientationCheck:
         return a, b, c
 
     def _tidy(self, turn: Matrix) -> Matrix:
-        """0, 1 and -1 where an entry is that."""
-
-        def entry(own: Any) -> Any:
-            if not isinstance(own, Term):
-                return own
-            constant = self.formulas.quotients([own], {}).constant(own)
-            return int(constant) if constant in (0, 1, -1) else own
-
-        a, b, c = (tuple(map(entry, row)) for row in turn)
+        a, b, c = (tuple(map(self._entry, row)) for row in turn)
         return a, b, c
+
+    def _entry(self, own: Any) -> Any:
+        """0, 1 and -1 where a number is that."""
+        constant = self.formulas.quotients([own], {}).constant(own) if isinstance(own, Term) else None
+        return int(constant) if constant in (0, 1, -1) else own
 
     def _reached(self, root: str, axis: Vector | None) -> dict[str, Matrix]:
         return reached(self.assembly.hops, root, axis, self.zero, self._tidy)
@@ -60,14 +57,10 @@ class OrientationCheck:
             self._reason(reason)
         turns: dict[str, ClaimedTurn] = {}
         for own in self.proof["orientations"]:
-            axis, hinge, line = (
-                None if own[key] is None else self._vector(own[key]) for key in ("axis", "hinge", "line")
-            )
-            circle, rod = (None if own[key] is None else tuple(map(str, own[key])) for key in ("circle", "rod"))
-            second = tuple(map(str, own["second"])) if "second" in own else None
-            constant = self._matrix(own["constant"])
-            triangle = self._balls(own) if "triangle" in own else None
-            turn = ClaimedTurn(own["link"], own["kind"], constant, axis, circle, hinge, line, rod, second, triangle)
+            if "triangle" in own:
+                claim = own["triangle"]
+                self._holders[str(own["link"])] = str(claim["link"]), [str(name) for name in claim["joints"]]
+            turn = self.assembly.claimed(own, self.proof["orientations"], self._vector)
             turns[turn.link] = turn
         fixed = self._reached(self.mechanism.base, None)
         for turn in turns.values():
@@ -85,13 +78,6 @@ class OrientationCheck:
                 raise RefusedError(f"the joints do not say that {turn.link} is turned so")
         return turns
 
-    def _balls(self, own: Mapping[str, Any]) -> Triangle:
-        """The three balls of a link, whose orientation has the constant that is claimed of the link that has them."""
-        claim = own["triangle"]
-        leader = next(other for other in self.proof["orientations"] if other["link"] == claim["link"])
-        self._holders[str(own["link"])] = str(claim["link"]), [str(name) for name in claim["joints"]]
-        return self.assembly.triangle(claim, self._matrix(leader["constant"]))
-
     def _by_balls(self, turn: ClaimedTurn, triangle: Triangle, turns: Mapping[str, ClaimedTurn]) -> bool:
         """Whether three balls hold a link, which are not on a line, and nothing else does.
 
@@ -99,8 +85,7 @@ class OrientationCheck:
         """
         leader, names = self._holders[turn.link]
         inside = self._reached(leader, None)
-        joints = self.mechanism.joints.items()
-        leaving = {name: own.type for name, own in joints if (own.parent in inside) != (own.child in inside)}
+        leaving = self._leaving(inside)
         held = leaving.keys() == {*names} and {*leaving.values()} == {"spherical"}
         between, own = inside.get(turn.link), turns[leader]
         if not held or between is None or self.mechanism.base in inside or own.kind != "triangle":
@@ -153,9 +138,7 @@ class OrientationCheck:
         leader = next(o for o in turns.values() if o.circle == turn.circle and o.kind == "circle")
         if turn.circle is None or leader is turn:
             return is_rotation(psi, self.zero) and fixes(psi, axis, self.zero)
-        between = self._reached(leader.link, None).get(turn.link)
-        alike = leader.axis is not None and all(map(self.zero, subtract(axis, leader.axis)))
-        return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+        return self._same(axis, leader.axis) and self._stands(turn, leader)
 
     def _carried(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
         """A link on a hinge of one that turns by the same circle: Rot(axis, psi) Rot(hinge, phi) constant."""
@@ -164,30 +147,27 @@ class OrientationCheck:
             return False
         leader = next(own for own in turns.values() if own.second == turn.second)
         if leader is not turn:
-            same_ones = leader.axis, leader.circle, leader.hinge
-            between = self._reached(leader.link, None).get(turn.link)
-            alike = between is not None and same(product(leader.constant, between), turn.constant, self.zero)
-            return alike and same_ones == (turn.axis, turn.circle, hinge)
-        return any(self._hung(hop, turn, hinge, turns) for hop in self.assembly.hops)
+            alike = (leader.axis, leader.circle, leader.hinge) == (turn.axis, turn.circle, hinge)
+            return alike and self._stands(turn, leader)
+        return any(self._hung(own, turn, hinge, turns) for hop in self.assembly.hops for own in (hop, hop.back))
 
     def _hung(self, hop: Hop, turn: ClaimedTurn, hinge: Vector, turns: Mapping[str, ClaimedTurn]) -> bool:
         """Whether a hop is that hinge, seen from what carries it."""
+        carrier = turns.get(hop.start)
+        if carrier is None or carrier.kind != "circle" or carrier.circle != turn.circle:
+            return False
+        return self._same(carrier.axis, turn.axis) and self._about(hop, carrier.constant, turn, hinge)
+
+    def _about(self, hop: Hop, carried: Matrix, turn: ClaimedTurn, hinge: Vector) -> bool:
+        """Whether a link turns by a hop about a hinge against its carrier, by what it is said to be turned at zero."""
         inside = self._reached(turn.link, None)
-        for start, end, forward in ((hop.start, hop.end, True), (hop.end, hop.start, False)):
-            carrier = turns.get(start)
-            if hop.axis is None or end not in inside or carrier is None or carrier.kind != "circle":
-                continue
-            if carrier.circle != turn.circle or carrier.axis is None or turn.axis is None:
-                continue
-            after = hop.after if forward else transposed(hop.after)
-            along = hop.axis if forward else apply(transposed(hop.after), hop.axis)
-            turned = product(
-                turn.constant, transposed(product(product(carrier.constant, after), transposed(inside[end])))
-            )
-            gaps = *subtract(carrier.axis, turn.axis), *cross(apply(carrier.constant, along), hinge)
-            if all(map(self.zero, gaps)) and is_rotation(turned, self.zero) and fixes(turned, hinge, self.zero):
-                return True
-        return False
+        if hop.axis is None or hop.end not in inside:
+            return False
+        whole = product(product(carried, hop.after), transposed(inside[hop.end]))
+        # the carrier's psi may count from elsewhere: then the hinge tells from where
+        turned = product(turn.constant, transposed(whole))
+        along = all(map(self.zero, cross(apply(carried, hop.axis), hinge)))
+        return along and fixes(turned, hinge, self.zero) and is_rotation(turned, self.zero)
 
     def _on_rod(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
         """A link between balls, with what slides on it, or one on a hinge across the axis of its carrier.
@@ -205,20 +185,12 @@ class OrientationCheck:
         if hinge is None and (leader is turn or parallel):
             return self._between_balls(turn.link, line) and same(turn.constant, ONE, self.zero)
         if hinge is None:
-            return self._with_leader(turn, leader)
+            return self._same(turn.line, leader.line) and self._stands(turn, leader)
         if axis is None or not self.zero(dot(hinge, axis)) or all(map(self.zero, cross(hinge, line))):
             return False
         if leader is not turn:
-            return self._with_leader(turn, leader)
-        return any(self._carries(own, turn, axis, hinge) for own in self.assembly.hops)
-
-    def _with_leader(self, turn: ClaimedTurn, leader: ClaimedTurn) -> bool:
-        """Whether a link turns as another does."""
-        between = self._reached(leader.link, None).get(turn.link)
-        alike = (
-            turn.line is not None and leader.line is not None and all(map(self.zero, subtract(turn.line, leader.line)))
-        )
-        return alike and between is not None and same(product(leader.constant, between), turn.constant, self.zero)
+            return self._same(turn.line, leader.line) and self._stands(turn, leader)
+        return any(self._carries(own, turn, axis, hinge) for hop in self.assembly.hops for own in (hop, hop.back))
 
     def _between_balls(self, link: str, line: Vector) -> bool:
         """Whether ball joints alone hold a link and what does not turn against it, and at most one universal joint.
@@ -226,8 +198,7 @@ class OrientationCheck:
         That lets the line point anywhere too, if its axes are perpendicular, and the link's to the line.
         """
         inside = self._reached(link, None)
-        joints = self.mechanism.joints.items()
-        leaving = {name: own.type for name, own in joints if (own.parent in inside) != (own.child in inside)}
+        leaving = self._leaving(inside)
         crosses = [name for name, kind in leaving.items() if kind == "universal"]
         balls = len(crosses) < len(leaving) and {*leaving.values()} <= {"spherical", "universal"}
         fine = self.mechanism.base not in inside and balls and len(crosses) < 2
@@ -235,37 +206,26 @@ class OrientationCheck:
 
     def _across_universal(self, name: str, inside: Mapping[str, Matrix], line: Vector) -> bool:
         first, second = (own for own in self.assembly.hops if own.joint == name)
-        if first.axis is None or second.axis is None:
+        near = second.back if second.end in inside else first
+        if first.axis is None or second.axis is None or near.axis is None:
             return False
-        near, axis = (second.end, apply(transposed(second.after), second.axis))
-        if near not in inside:
-            near, axis = first.start, first.axis
-        return self.zero(dot(first.axis, second.axis)) and self.zero(dot(apply(inside[near], axis), line))
+        return self.zero(dot(first.axis, second.axis)) and self.zero(dot(apply(inside[near.start], near.axis), line))
 
     def _carries(self, hop: Hop, turn: ClaimedTurn, axis: Vector, hinge: Vector) -> bool:
         """Whether a hop is the hinge of a rod: Rot(axis, psi) Rot(hinge, phi) constant is its orientation."""
-        inside = self._reached(turn.link, None)
-        for start, end, forward in ((hop.start, hop.end, True), (hop.end, hop.start, False)):
-            carried = self._reached(self.mechanism.base, axis).get(start)
-            if hop.axis is None or end not in inside or carried is None:
-                continue
-            after = hop.after if forward else transposed(hop.after)
-            along = hop.axis if forward else apply(transposed(hop.after), hop.axis)
-            whole = product(product(carried, after), transposed(inside[end]))
-            own = apply(carried, along)
-            # the carrier's psi may count from elsewhere: then the hinge tells from where
-            turned = product(turn.constant, transposed(whole))
-            if (
-                all(map(self.zero, cross(own, hinge)))
-                and fixes(turned, hinge, self.zero)
-                and is_rotation(turned, self.zero)
-            ):
-                return True
-        return False
+        carried = self._reached(self.mechanism.base, axis).get(hop.start)
+        return carried is not None and self._about(hop, carried, turn, hinge)
 
+    def _stands(self, turn: ClaimedTurn, leader: ClaimedTurn) -> bool:
+        """Whether a link's constant is that of another which it does not turn against."""
+        between = self._reached(leader.link, None).get(turn.link)
+        return between is not None and same(product(leader.constant, between), turn.constant, self.zero)
 
-def _plain(own: Any) -> Any:
-    """0, 1 and -1 as integers."""
-    if isinstance(own, Term) and own.kind == "number" and own.parts[0] in (0, 1, -1):
-        return int(own.parts[0])
-    return own
+    def _same(self, first: Vector | None, second: Vector | None) -> bool:
+        """Whether two vectors are one."""
+        return first is not None and second is not None and all(map(self.zero, subtract(first, second)))
+
+    def _leaving(self, inside: Mapping[str, Matrix]) -> dict[str, str]:
+        """Joints that hold some links, with their types."""
+        joints = self.mechanism.joints.items()
+        return {name: own.type for name, own in joints if (own.parent in inside) != (own.child in inside)}

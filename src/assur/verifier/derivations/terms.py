@@ -32,9 +32,6 @@ class Term:
     def __add__(self, other: Any) -> Term:
         return Term("+", (self, term(other)))
 
-    def __radd__(self, other: Any) -> Term:
-        return term(other) + self
-
     def __neg__(self) -> Term:
         return term(-1) * self
 
@@ -47,14 +44,13 @@ class Term:
     def __mul__(self, other: Any) -> Term:
         return Term("*", (self, term(other)))
 
-    def __rmul__(self, other: Any) -> Term:
-        return term(other) * self
-
     def __truediv__(self, other: Any) -> Term:
         return Term("/", (self, term(other)))
 
     def __rtruediv__(self, other: Any) -> Term:
         return term(other) / self
+
+    __radd__, __rmul__ = __add__, __mul__
 
 
 def term(number: Any) -> Term:

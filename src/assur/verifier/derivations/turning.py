@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from assur.verifier.field import NoExactError
@@ -21,11 +22,13 @@ from assur.verifier.vectors import (
     Matrix,
     Vector,
     about,
+    add,
     apply,
     cross,
     dot,
     plus,
     product,
+    scaled,
     subtract,
     times,
     transposed,
@@ -44,6 +47,12 @@ class Hop:
     after: Matrix
     axis: Vector | None = None
     joint: str = ""
+
+    @cached_property
+    def back(self) -> Hop:
+        """The same from its end, where it turns the other way."""
+        after = transposed(self.after)
+        return Hop(self.end, self.start, after, None if self.axis is None else apply(after, self.axis), self.joint)
 
 
 def hops(graph: Graph, locked: Mapping[str, Circle]) -> Iterator[Hop]:
@@ -82,7 +91,9 @@ def _kept(graph: Graph, group: FileParallelogram) -> Iterator[Hop]:
         yield Hop(group.parent, group.child, ONE)
         yield Hop(first, second, ONE)
     elif group.kind in ("P(4S)", "P(2US)"):
-        near, far = (point(graph, name, group.parent) for name in group.joints if group.parent in ends(graph, name))
+        joints, link = graph.mechanism.joints, group.parent
+        held = (name for name in group.joints if link in (joints[name].parent, joints[name].child))
+        near, far = (point(graph, name, link) for name in held)
         yield Hop(group.parent, group.child, ONE, subtract(far, near))
         if group.kind == "P(2US)":
             yield Hop(first, second, ONE)
@@ -93,12 +104,6 @@ def rods(mechanism: FileMechanism, group: FileParallelogram) -> tuple[str, str]:
     links = {link for name in group.joints for link in (mechanism.joints[name].parent, mechanism.joints[name].child)}
     first, second = sorted(links - {group.parent, group.child})
     return first, second
-
-
-def ends(graph: Graph, joint: str) -> tuple[str, str]:
-    """Both links of a joint."""
-    own = graph.mechanism.joints[joint]
-    return own.parent, own.child
 
 
 def point(graph: Graph, joint: str, link: str) -> Vector:
@@ -113,30 +118,20 @@ def reached(
     """Links that hang on a root by rigid hops, and by ones about one direction of it; their C of Rot(axis, psi) C."""
     result: dict[str, Matrix] = {root: ONE}
     for link in (waiting := [root]):
-        for hop in all_hops:
-            if link not in (hop.start, hop.end):
+        for hop in (own for both in all_hops for own in (both, both.back)):
+            if link != hop.start or hop.end in result:
                 continue
-            other = hop.end if link == hop.start else hop.start
-            if other in result:
-                continue
-            own = result[link] if link == hop.start else product(result[link], transposed(hop.after))
-            if hop.axis is not None and (
-                axis is None or not all(zero(part) for part in cross(apply(own, hop.axis), axis))
-            ):
-                continue
-            result[other] = tidy(product(own, hop.after) if link == hop.start else own)
-            waiting.append(other)
+            own = result[link]
+            if hop.axis is None or (axis is not None and all(map(zero, cross(apply(own, hop.axis), axis)))):
+                result[hop.end] = tidy(product(own, hop.after))
+                waiting.append(hop.end)
     return result
 
 
 def is_rotation(turn: Matrix, zero: IsZero) -> bool:
     """Whether a matrix is one: orthogonal, of determinant 1."""
     a, b, c = turn
-    square = product(turn, transposed(turn))
-    gaps = [
-        plus(x, times(-1, y)) for row, other in zip(square, ONE, strict=True) for x, y in zip(row, other, strict=True)
-    ]
-    return all(map(zero, [*gaps, plus(dot(a, cross(b, c)), -1)]))
+    return same(product(turn, transposed(turn)), ONE, zero) and zero(plus(dot(a, cross(b, c)), -1))
 
 
 def fixes(turn: Matrix, axis: Vector, zero: IsZero) -> bool:
@@ -146,9 +141,7 @@ def fixes(turn: Matrix, axis: Vector, zero: IsZero) -> bool:
 
 def same(first: Matrix, second: Matrix, zero: IsZero) -> bool:
     """Whether two matrices are one."""
-    return all(
-        zero(plus(a, times(-1, b))) for x, y in zip(first, second, strict=True) for a, b in zip(x, y, strict=True)
-    )
+    return all(zero(part) for rows in zip(first, second, strict=True) for part in subtract(*rows))
 
 
 @dataclass(frozen=True)
@@ -178,9 +171,9 @@ class Triangle:
         first = times(plus(times(uv, ww), times(-1, times(wv, uw))), over)
         last = times(plus(times(wv, uu), times(-1, times(uv, uw))), over)
         (a, b, c), _, (x, y, z) = (tuple(values[name] for name in side) for side in self.sides)
-        along = _add(_scaled((a, b, c), first), _scaled((x, y, z), last))
+        along = add(scaled((a, b, c), first), scaled((x, y, z), last))
         beside = dot(cross(u, w), vector)
-        return along if zero(beside) else _add(along, _scaled(cross((a, b, c), (x, y, z)), times(beside, over)))
+        return along if zero(beside) else add(along, scaled(cross((a, b, c), (x, y, z)), times(beside, over)))
 
 
 @dataclass(frozen=True)
@@ -207,11 +200,11 @@ class ClaimedTurn:
             return self._turned(own, values, zero)
         line, hinge, rod = self.line or (0, 0, 0), self.hinge or (0, 0, 0), self.rod or ()
         share, beside = dot(line, own), dot(hinge, own) if zero(dot(hinge, line)) else 0
-        if not all(zero(part) for part in subtract(own, _add(_scaled(line, share), _scaled(hinge, beside)))):
+        if not all(zero(part) for part in subtract(own, add(scaled(line, share), scaled(hinge, beside)))):
             raise RefusedError(f"{self.link} has a point beside its line")
         x, y, z = (values[name] for name in rod)
-        along = _scaled((x, y, z), share)
-        return along if zero(beside) else _add(along, _scaled(self._turned(hinge, values, zero), beside))
+        along = scaled((x, y, z), share)
+        return along if zero(beside) else add(along, scaled(self._turned(hinge, values, zero), beside))
 
     def _turned(self, own: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
         if self.kind == "carried" and self.hinge is not None:
@@ -236,13 +229,3 @@ class ClaimedTurn:
             cosine, sine = (values[name] for name in self.second or ())
             turn = product(turn, about(self.hinge, cosine, sine))
         return product(turn, self.constant)
-
-
-def _add(a: Vector, b: Vector) -> Vector:
-    x, y, z = (plus(p, q) for p, q in zip(a, b, strict=True))
-    return x, y, z
-
-
-def _scaled(a: Vector, factor: Any) -> Vector:
-    x, y, z = (times(p, factor) for p in a)
-    return x, y, z
