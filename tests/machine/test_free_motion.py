@@ -4,11 +4,18 @@ import numpy as np
 import pytest
 
 import assur
+from assur.cli.main import main
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
+from assur.machine.free_motion import free_motion
 from assur.machine.masses import masses
 from assur.machine.prescribed_motion import harmonic
 from assur.machine.release import Release, forces_in_time
+from assur.model.pose import LENGTHS, rate_names
+from screw_mechanisms import DIFFERENTIAL, loaded
+from weighed import weighed
 
 POSE = np.array([-15.0, 10.0, 400.0])
 
@@ -97,3 +104,38 @@ def test_a_start_that_is_not_reached_or_singular_is_told(zeng):
     fivebar = assur.load("fivebar", l2=150)
     flat = fivebar.free_motion(Release(np.array([0.0, 60.0]), np.zeros(2), 1.0, lambda _: still(fivebar)), "-+")
     assert (flat.status, len(flat.times)) == ("parallel", 1)
+
+
+def test_a_nut_between_two_screws_falls_as_by_hand(tmp_path):
+    """z = (5 + 3) mm a turn of the first screw, which itself moves by 5: one equation for its angle."""
+    machine = "[payload]\nmass = 1.0\n[actuators]\nH1 = { rotor = 2e-6, force = 1 }\n"
+    masses_of = (
+        ("screw = {}", "screw = { mass = 2, inertia = [1e-3, 1e-3, 3e-6, 0, 0, 0] }"),
+        ("nut = {}", "nut = { mass = 3 }"),
+    )
+    record = loaded(tmp_path, DIFFERENTIAL + machine, *masses_of)
+    screw, nut = 5e-3 / (2 * np.pi), 8e-3 / (2 * np.pi)
+    inertia, pull = 2e-6 + 3e-6 + 2 * screw**2 + 4 * nut**2, 9.81 * (2 * screw + 4 * nut)
+    torque = 0.03
+    moved = record.free_motion(Release(np.zeros(1), np.zeros(1), 0.02, lambda _: np.array([torque]), count=3))
+    turned = 0.5 * (torque - pull) / inertia * moved.times**2
+    np.testing.assert_allclose(moved.inputs[:, 0], turned, rtol=1e-9)
+    np.testing.assert_allclose(moved.poses[:, 0], 1e3 * nut * turned, rtol=1e-9)
+    swing = harmonic(record, [0.0], [4.0], 30.0)
+    speeding = -0.004 / nut * 900.0 * np.sin(30.0 * swing.times)
+    np.testing.assert_allclose(record.dynamics(swing).forces[:, 0], inertia * speeding + pull, rtol=1e-9)
+
+
+@pytest.mark.deep
+def test_six_limbs_without_a_closed_form_keep_their_energy(tmp_path):
+    """Rods between ball joints weigh beside their axes, so that they spin; all is told by the joint graph."""
+    path = tmp_path / "own.toml"
+    assert main(["new", str(path), "--limb", "P S S", "--count", "6"]) == 0
+    record = weighed(assur.load(path))
+    length = characteristic_length(record)
+    velocity = np.array([0.1 * length if name in LENGTHS else 0.3 for name in rate_names(record.platform.pose)])
+    start = Release(pose_of(record, home_values(record)), velocity, 0.2, lambda _: still(record), count=3)
+    moved = free_motion(record, start, use_limits=False)
+    assert moved.drift <= 1e-9
+    assert moved.gap <= 1e-10
+    assert moved.times[-1] > 0.01
