@@ -4,11 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 import assur
 from assur.errors import UsageError
-from assur.machine.capacity import capacity
+from assur.kinematics.pose import pose_of
+from assur.machine.capacity import capacity, held_forces
+from assur.machine.forces import reached
 from assur.model.machine_data import Actuator, Gravity, MachineData
+from own_machines import own_machine
+from weighed import weighed
 
 POSE = [-15.4714, 9.6849, 456.3315]
 
@@ -48,6 +53,43 @@ def test_what_is_held_is_just_held(zeng):
     shares = [np.abs(zeng.forces(POSE, load=force).forces[0]).max() / 60 for force in away]
     assert max(shares) <= 1.0 + 1e-9
     assert held.limiting in ("yA1", "yA2", "yA3")
+
+
+@pytest.mark.deep
+def test_with_more_drives_than_freedoms_preload_helps():
+    """How far a force goes along random directions, by linear programmes over the forces of all drives."""
+    own = weighed(own_machine("two_upr_two_rpu"))
+    labels = [own.coordinate_label(item.coordinate) for item in own.drives]
+    limits = np.array([100.0, 150.0, 120.0, 80.0])
+    actuators = {label: Actuator(force=limit) for label, limit in zip(labels, limits, strict=True)}
+    record = replace(own, machine=replace(own.machine, actuators=actuators))
+    pose = pose_of(record, record.home_values)
+    held = capacity(record, pose)
+    own_forces = held.answer.forces[0]
+    asked = np.array([record.forces(pose, load=push, gravity=False).forces[0] for push in np.eye(3)]).T
+    preload = held.answer.preload[0]
+    assert preload.shape == (4, 1)
+
+    def reach(direction):
+        """The largest size of a force in a direction: |own + size asked direction + preload s| <= limits."""
+        columns = np.column_stack([asked @ direction, preload])
+        answer = linprog(
+            [-1.0, 0.0],
+            A_ub=np.concatenate([columns, -columns]),
+            b_ub=np.concatenate([limits - own_forces, limits + own_forces]),
+            bounds=[(0, None), (None, None)],
+        )
+        return answer.x[0]
+
+    faces = held_forces(record, *reached(record, pose[None])).faces[0]
+    np.testing.assert_allclose([[reach(-axis), reach(axis)] for axis in np.eye(3)], held.per_axis, rtol=1e-7)
+    near = faces / np.linalg.norm(faces, axis=1, keepdims=True)
+    assert min(reach(direction) for direction in near) == pytest.approx(held.sphere)
+    for corner in held.vertices:
+        assert reach(corner / np.linalg.norm(corner)) == pytest.approx(np.linalg.norm(corner))
+    least = np.abs(own_forces[:, None] + asked @ (held.vertices.T)).max(axis=0) / limits.min()
+    assert held.limiting == ""
+    assert least.max() > 1.0  # with forces of least norm alone, less would be held
 
 
 def test_gravity_that_is_too_much_leaves_nothing():

@@ -1,11 +1,12 @@
 """How large a force on the platform the actuators hold at rest, in every direction, within what each can exert.
 
-A force f asks the actuators for tau = tau_0 - A f, with tau_0 what gravity asks for. The forces for which |tau| stays
+A force f asks the actuators for tau = tau_0 + A f, with tau_0 what gravity asks for. The forces for which |tau| stays
 within the limits are a polytope: how far it reaches along an axis, its largest sphere about no force, its corners.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import HalfspaceIntersection
 
 from assur.errors import UsageError
-from assur.kinematics.status import Status
-from assur.machine.forces import ActuatorForces, forces
+from assur.kinematics import border
+from assur.machine.forces import ActuatorForces, forces_at, reached
+from assur.machine.loads import load_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 
@@ -31,7 +33,7 @@ class ForceCapacity:
         axes: of these x, y and z that the pose has.
         per_axis: (k, 2) the largest force against each axis and along it; infinite where no actuator feels it.
         sphere: the largest force that is held in every direction; 0 where gravity alone is too much.
-        limiting: the input whose limit that is.
+        limiting: the input whose limit that is; "" where redundant ones share it.
         vertices: (V, k) corners of the polytope; none where it is not bounded, or gravity alone is too much.
         utilisation: (d,) share of each actuator's limit that gravity asks for.
         limits: (d,) N or N m.
@@ -48,6 +50,92 @@ class ForceCapacity:
     answer: ActuatorForces
 
 
+@dataclass(frozen=True, eq=False)
+class HeldForces:
+    """The same at N configurations; what is not held, or not reached, is NaN.
+
+    Attributes:
+        axes, limits: as above.
+        faces: (N, m, k) and room (N, m): the forces f on the platform with faces f <= room are held.
+        utilisation: (N, d) share of each actuator's limit that gravity asks for, of redundant ones the least norm's.
+        answer: forces under gravity alone.
+    """
+
+    axes: tuple[str, ...]
+    limits: FloatArray
+    faces: FloatArray
+    room: FloatArray
+    utilisation: FloatArray
+    answer: ActuatorForces
+
+    @property
+    def per_axis(self) -> FloatArray:
+        """The largest force (N, k, 2) against each axis and along it; infinite where no actuator feels it."""
+        pairs = []
+        for sense in (-1.0, 1.0):
+            slope = sense * self.faces
+            reach = np.where(slope > 0, self.room[..., None] / np.where(slope > 0, slope, 1.0), np.inf)
+            pairs.append(np.maximum(np.min(np.where(np.isnan(slope), np.nan, reach), axis=1), 0.0))
+        enough = np.all(self.room >= 0, axis=1) | np.isnan(self.room[:, 0])
+        return np.where(enough[:, None, None], np.stack(pairs, axis=-1), 0.0)
+
+    @property
+    def reach(self) -> FloatArray:
+        """How large a force (N, m) is held in the direction of each face, at right angles to it."""
+        sizes = np.linalg.norm(self.faces, axis=-1)
+        return np.where(sizes == 0.0, np.inf, np.maximum(self.room, 0.0) / np.where(sizes == 0.0, 1.0, sizes))
+
+    @property
+    def sphere(self) -> FloatArray:
+        """The largest force (N,) that is held in every direction; 0 where gravity alone is too much."""
+        return np.asarray(np.min(self.reach, axis=1))
+
+
+def held_forces(record: MechanismRecord, values: FloatArray, lost: NDArray[np.bool_] | None = None) -> HeldForces:
+    """Forces that are held at joint values (N, n), gravity included; where `lost` (N,) is true there are none.
+
+    With more drives than freedoms the forces by which they balance one another help: what any of them holds counts.
+
+    Errors:
+        UsageError: actuators without a largest force, links without a mass.
+    """
+    limits = force_limits(record)
+    axes = tuple(name for name in LENGTHS if name in record.platform.pose)
+    answer = forces_at(record, values, load_of(None), lost=lost)
+    pushes = [np.eye(3)[LENGTHS.index(name)] for name in axes]
+    asked = np.stack(
+        [forces_at(record, values, load_of(push, gravity=False), lost=lost).forces for push in pushes], axis=-1
+    )  # (N, d, k): forces are gravity's and these times f
+    normals = _normals(answer, limits)  # (N, m, d)
+    bound = np.abs(normals) @ limits
+    faces, own = normals @ asked, (normals @ answer.forces[..., None])[..., 0]
+    faces[np.abs(faces) <= ZERO * np.abs(faces).max(axis=(1, 2), initial=0.0)[:, None, None]] = 0.0
+    return HeldForces(
+        axes=axes,
+        limits=limits,
+        faces=np.concatenate([faces, -faces], axis=1),
+        room=np.concatenate([bound - own, bound + own], axis=1),
+        utilisation=np.abs(answer.forces) / limits,
+        answer=answer,
+    )
+
+
+def _normals(answer: ActuatorForces, limits: FloatArray) -> FloatArray:
+    """Sums of actuator forces (N, m, d) whose largest values bound what is held: each alone, without redundant ones.
+
+    Else preload changes the forces: what counts are sums that it leaves alone, those that leave out most actuators.
+    """
+    count, shape = answer.preload.shape[-1], (len(answer.values), len(limits), len(limits))
+    if not count:
+        return np.broadcast_to(np.eye(len(limits)), shape)
+    left = np.linalg.svd(answer.preload)[0][..., count:]  # (N, d, k) sums that preload leaves alone
+    normals = []
+    for kept in itertools.combinations(range(len(limits)), left.shape[-1] - 1):
+        across = np.linalg.svd(left[:, kept])[2][:, -1]  # of these the sum without the actuators kept
+        normals.append((left @ across[..., None])[..., 0])
+    return np.stack(normals, axis=1)
+
+
 def capacity(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -> ForceCapacity:
     """Forces that are held at a pose (m,), in the mechanism's unit and rad, gravity included.
 
@@ -61,33 +149,19 @@ def capacity(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) 
     >>> held.axes, len(held.vertices)
     (('x', 'y', 'z'), 8)
     """
-    limits = force_limits(record)
-    axes = tuple(name for name in LENGTHS if name in record.platform.pose)
-    answer = forces(record, pose, mode=mode)
-    pushes = [np.eye(3)[LENGTHS.index(name)] for name in axes]
-    asked = np.array(
-        [forces(record, pose, load=push, gravity=False, mode=mode).forces[0] for push in pushes]
-    ).T  # (d, k)
-    own = answer.forces[0]
-    utilisation = np.abs(own) / limits
-    if Status(int(answer.status[0])) not in (Status.regular, Status.near_singular, Status.serial):
-        none = np.full((len(axes), 2), np.nan)
-        return ForceCapacity(axes, none, np.nan, "", np.empty((0, len(axes))), utilisation, limits, answer)
-    faces = np.concatenate([asked, -asked])  # with asked = -A: faces f <= room
-    room = np.concatenate([limits - own, limits + own])
-    faces[np.abs(faces) <= ZERO * np.abs(faces).max(initial=0.0)] = 0.0
-    sizes = np.linalg.norm(faces, axis=1)
-    reach = np.where(sizes > 0, np.maximum(room, 0.0) / np.where(sizes > 0, sizes, 1.0), np.inf)
-    place = int(np.argmin(reach))
+    held = held_forces(record, *reached(record, border.checked_poses(record, pose)[None], mode))
+    shown = not bool(np.isnan(held.room[0]).any())
+    place = int(np.argmin(held.reach[0])) % (held.room.shape[1] // 2)
+    own = not held.answer.preload.shape[-1]
     return ForceCapacity(
-        axes=axes,
-        per_axis=_along(faces, room),
-        sphere=float(reach[place]),
-        limiting=record.drives[place % len(limits)].name,
-        vertices=_corners(faces, room, sizes),
-        utilisation=utilisation,
-        limits=limits,
-        answer=answer,
+        axes=held.axes,
+        per_axis=held.per_axis[0],
+        sphere=float(held.sphere[0]),
+        limiting=record.drives[place].name if shown and own else "",
+        vertices=_corners(held.faces[0], held.room[0]) if shown else np.empty((0, len(held.axes))),
+        utilisation=held.utilisation[0],
+        limits=held.limits,
+        answer=held.answer,
     )
 
 
@@ -106,20 +180,9 @@ def force_limits(record: MechanismRecord) -> FloatArray:
     return np.array([own.force for own in known if own is not None], dtype=float)
 
 
-def _along(faces: FloatArray, room: FloatArray) -> FloatArray:
-    """The largest force (k, 2) against and along each axis."""
-    held = []
-    for axis in range(faces.shape[1]):
-        for sense in (-1.0, 1.0):
-            slope = sense * faces[:, axis]
-            reach = np.where(slope > 0, room / np.where(slope > 0, slope, 1.0), np.inf)
-            held.append(max(float(np.min(reach)), 0.0) if np.all(room >= 0) else 0.0)
-    return np.array(held).reshape(-1, 2)
-
-
-def _corners(faces: FloatArray, room: FloatArray, sizes: FloatArray) -> FloatArray:
+def _corners(faces: FloatArray, room: FloatArray) -> FloatArray:
     """Corners (V, k) of the polytope of forces around no force."""
-    count = faces.shape[1]
+    count, sizes = faces.shape[1], np.linalg.norm(faces, axis=1)
     none = np.empty((0, count))
     if np.any(room <= 0.0) or np.linalg.matrix_rank(faces, tol=ZERO * float(np.max(sizes))) < count or count < 2:
         return none

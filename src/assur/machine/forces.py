@@ -198,11 +198,21 @@ def forces(
         checked = border.checked(numbers, names, f"{what} of {record.name}") * units
         return np.broadcast_to(checked, (*given.shape[:-1], len(units))).reshape(-1, len(units))
 
-    joints = joints_in_mode(record, flat, mode)
-    lost = ~np.all(np.isfinite(joints), axis=-1)
-    values = np.where(lost[:, None], home_values(record), joints)
+    values, lost = reached(record, flat, mode)
     moving = rates(velocity, "velocity"), rates(acceleration, "acceleration")
     return forces_at(record, values, load_of(load, gravity), *moving, lost=lost)
+
+
+def reached(record: MechanismRecord, poses: FloatArray, mode: str | None = None) -> tuple[FloatArray, BoolArray]:
+    """Joint values (N, n) at poses (N, m) in a mode, home's where it does not reach; and where (N,) that is.
+
+    >>> from assur.model.registry import load_record
+    >>> reached(load_record("fivebar"), np.array([[0.0, 224.0], [0.0, 999.0]]))[1].tolist()
+    [False, True]
+    """
+    joints = joints_in_mode(record, poses, mode)
+    lost = ~np.all(np.isfinite(joints), axis=-1)
+    return np.where(lost[:, None], home_values(record), joints), lost
 
 
 def forces_at(
