@@ -126,3 +126,32 @@ def test_near_a_singularity_it_is_told_who_bears_and_which_joint_moves(assur_cli
     assert there.json["status"] == "parallel"
     assert there.json["actuator_forces"] == [None, None]
     assert "grows as one over the distance" in there.json["notes"][1]
+
+
+def test_what_is_held_is_mapped_over_a_plane(assur_cli, tmp_path):
+    path = tmp_path / "held.csv"
+    run = assur_cli("forces", "fivebar", "--capacity", "--map", "x,y", "--nodes", "5", "-o", str(path), "--json")
+    maps = run.json["maps"]
+    assert list(maps) == ["sphere", "gravity", "against x", "along x", "against y", "along y", "speed"]
+    inside = [(i, j) for i in range(5) for j in range(5) if run.json["status"][i][j] == "regular"]
+    i, j = inside[0]
+    pose = [run.json["axes"][name][k] for name, k in (("x", i), ("y", j))]
+    held = capacity(assur.load("fivebar"), pose)
+    assert maps["sphere"]["values"][i][j] == pytest.approx(held.sphere)
+    assert [maps[f"{side} x"]["values"][i][j] for side in ("against", "along")] == pytest.approx(held.per_axis[0])
+    assert path.read_text(encoding="utf-8").startswith("x [mm],y [mm],status,sphere [N],gravity,against x [N]")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--map", "x,y"], "--map goes with --capacity"),
+        (["--capacity", "--map", "x,y", "--pose", "0", "224"], "without --pose"),
+        (["--capacity", "--at", "x=0"], "--at and --output go with --map"),
+        (["--capacity", "--map", "x,q"], "there is: x, y"),
+    ],
+)
+def test_a_map_of_what_is_none_is_refused(assur_cli, words, said):
+    run = assur_cli("forces", "fivebar", *words)
+    assert run.code == 2
+    assert said in run.err

@@ -62,7 +62,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),
-    "forces": (ForcesAnswer, CapacityAnswer),
+    "forces": (ForcesAnswer, CapacityAnswer, MapsAnswer),
     "indices": (IndicesAnswer, OverallAnswer, MapsAnswer),
     "inverse": (InverseAnswer, CertifiedInverse),
     "list": (CatalogueAnswer,),

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
+from assur.cli.options import SHARED_DEFAULTS, Held, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
 
 
 def forces(
@@ -31,6 +31,20 @@ def forces(
     capacity: Annotated[
         bool, Parameter(help="Which forces on the platform the actuators hold at rest within their limits.")
     ] = False,
+    plane: Annotated[
+        str | None,
+        Parameter(name="--map", metavar="X,Z", help="With --capacity: map it over these coordinates."),
+    ] = None,
+    at: Held = (),
+    nodes: Annotated[str, Parameter(metavar="COUNT", help="With --map: nodes along each; 40 if left out.")] = "40",
+    output: Annotated[
+        str | None,
+        Parameter(
+            name=("-o", "--output"),
+            metavar="FILE",
+            help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
+        ),
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Forces of the actuators and reactions in the joints at a pose.
@@ -42,12 +56,15 @@ def forces(
     and what rigid links leave open. Also: energies, power, mass matrix, bias and
     gravity in the pose's rates, friction apart. Rates and accelerations are in
     the file's units; `--json` is in SI units. Exit code 2: a mass that is needed
-    is not in the file. 4: the mode does not reach the pose.
+    is not in the file. 4: the mode does not reach the pose. With --capacity:
+    which forces on the platform the actuators hold at rest, at a pose or, with
+    --map, over the workspace, and how fast they move the platform.
 
     For example:
         assur forces zeng2019 --pose -15.4714 9.6849 456.3315 --load 0,0,-100
         assur forces delta_4s --pose 0 0 -0.9 --velocity 1 0 0 --acceleration 20 0 0
         assur forces delta_4s --capacity --pose 0 0 -0.9
+        assur forces delta_4s --capacity --map x,z --at y=0 -o held.png
     """
     record = shared.mechanism(mechanism)
     from assur.cli import forced
@@ -59,6 +76,14 @@ def forces(
     mode = mode or record.modes.default_working
     if capacity and (load is not None or no_gravity or velocity or acceleration):
         raise UsageError("--capacity: at rest under gravity", hint="leave out --load, --no-gravity and motions")
+    if plane is not None:
+        if pose or not capacity:
+            raise UsageError("--map goes with --capacity, and without --pose", hint="--at holds coordinates of a map")
+        from assur.cli import capacity_map
+
+        return capacity_map.over_plane(record, plane, at, mode, nodes, output, shared)
+    if at or output is not None:
+        raise UsageError("--at and --output go with --map", hint="add --capacity --map x,z")
     if capacity and not pose:
         from assur.cli import borne
         from assur.kinematics.pose import pose_of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from matplotlib.colors import Normalize
@@ -30,8 +30,8 @@ def whole(context: Context) -> IndexMaps:
     )
 
 
-def drawn(context: Context, maps: IndexMaps) -> Drawing:
-    """Every index over two coordinates of the workspace of a context.
+def drawn(context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = None) -> Drawing:
+    """Every index over two coordinates of the workspace of a context; `tops` are where colours of some end.
 
     Errors:
         UsageError: maps of one or of three coordinates.
@@ -43,7 +43,7 @@ def drawn(context: Context, maps: IndexMaps) -> Drawing:
     titles = [f"${item.symbol}$" + (f" ({units(item.unit)})" if item.unit else "") for item in maps.maps.values()]
     figure, pairs = panels(plane, titles, right=13.0)
     for pair, (name, item) in zip(pairs, maps.maps.items(), strict=True):
-        top = _top(name, item.values[np.isfinite(item.values)])
+        top = (tops or {}).get(name, _top(name, item.values[np.isfinite(item.values)]))
         values = np.where(np.isinf(item.values), np.nan if top is None else top, item.values).T
         image = coloured(pair[0], plane, values, Normalize(0.0, top or 1.0))
         with_bar(pair, image, "none found", beyond(top or np.inf, item.values))

@@ -57,6 +57,7 @@ class HeldForces:
     Attributes:
         axes, limits: as above.
         faces: (N, m, k) and room (N, m): the forces f on the platform with faces f <= room are held.
+        per_load: (N, d, k) forces of the actuators per newton on the platform along each axis.
         utilisation: (N, d) share of each actuator's limit that gravity asks for, of redundant ones the least norm's.
         answer: forces under gravity alone.
     """
@@ -65,6 +66,7 @@ class HeldForces:
     limits: FloatArray
     faces: FloatArray
     room: FloatArray
+    per_load: FloatArray
     utilisation: FloatArray
     answer: ActuatorForces
 
@@ -115,6 +117,7 @@ def held_forces(record: MechanismRecord, values: FloatArray, lost: NDArray[np.bo
         limits=limits,
         faces=np.concatenate([faces, -faces], axis=1),
         room=np.concatenate([bound - own, bound + own], axis=1),
+        per_load=asked,
         utilisation=np.abs(answer.forces) / limits,
         answer=answer,
     )
