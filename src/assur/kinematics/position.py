@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import re
-from types import SimpleNamespace
 from typing import get_args
 
 import numpy as np
@@ -13,13 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.closed_form.branches import Branches
-from assur.kinematics.modes import Method, Problem, all_modes, mode_signs, sign_axes, sign_names
-from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.closed_form.branches import Branches, branches
+from assur.kinematics.modes import Method, Problem, all_modes
+from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
-from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
 MOST_SIGNS = 6
@@ -102,7 +99,7 @@ def branches_at(record: MechanismRecord, poses: ArrayLike, mode: str) -> Branche
     >>> branches_at(load_record("fivebar"), [[0.0, 200.0], [0.0, 900.0]], "-+").exists[:, 0]
     array([ True, False])
     """
-    return _branches(record, "inverse", border.checked_poses(record, poses), mode)
+    return branches(record, "inverse", border.checked_poses(record, poses), mode)
 
 
 def branch_count(record: MechanismRecord, problem: Problem) -> int:
@@ -131,7 +128,7 @@ def _answer(
         raise UsageError("crossed parallelograms are found on the joint graph", hint="leave the method out")
     if kernel is not None and method not in ("loops", "search") and not crossed:
         if not isinstance(kernel, Eliminant | PolynomialSystem):
-            return _branches(record, problem, given, mode)
+            return branches(record, problem, given, mode)
         from assur.kinematics.closed_form.polynomials import polynomial_solutions  # no branch needs it
 
         return polynomial_solutions(record, kernel, given, _lettered_mode(record, problem, mode, given, method), method)
@@ -140,26 +137,6 @@ def _answer(
     return assemblies(
         record, problem, given, _lettered_mode(record, problem, mode, given, method), method, crossed=crossed
     )
-
-
-def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None) -> Branches:
-    """Every branch of a kernel, or the one of a mode."""
-    form = closed_form_of(record)
-    names = sign_names(record, problem)
-    if mode is None:
-        sign, shape = sign_axes(names), (2,) * len(names)
-        asked = [mode_signs(record, problem, text) for text in all_modes(record, problem)]
-    else:
-        asked = [mode_signs(record, problem, mode)]
-        sign, shape = SimpleNamespace(**dict(zip(names, map(float, asked[0]), strict=True))), ()
-    flat = given.reshape(-1, given.shape[-1])
-    components = border.input_components if problem == "direct" else border.pose_components
-    kernel = branch_kernel(record) if problem == "direct" else form.inverse
-    with np.errstate(
-        divide="ignore", invalid="ignore", over="ignore"
-    ):  # where a margin degenerates; its status says so
-        branch = kernel(Floats(), kernel_dimensions(record), components(record, flat), sign)
-    return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
 
 
 def _lettered_mode(

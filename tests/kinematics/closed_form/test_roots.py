@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.closed_form import polynomials as polynomial_solver
 from assur.kinematics.closed_form.roots import coefficients_of
 from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant
@@ -201,3 +202,19 @@ def test_roots_that_go_to_infinity_leave_no_doubt(apart):
     found = assur.load("h4_robot").direct(np.radians([180 - apart, 180 + 0.3 * apart, 30, 40]))
     assert (len(found), found.complete) == (2, True)
     assert np.all(found.residuals[found.exists] < 1e-6)
+
+
+@pytest.mark.deep
+def test_where_roots_leave_a_problem_open_the_loops_are_held_to_the_model_of_the_form(monkeypatch):
+    """Of an H4 the loops find assemblies with one bar turned half round against the other, as its file lets it."""
+    mechanism = assur.load("h4_robot")
+    inputs = np.full(4, 0.8382)
+    by_form = mechanism.direct(inputs)
+    assert len(mechanism.direct(inputs, method="loops")) == 6
+    monkeypatch.setattr(polynomial_solver, "roots_of", lambda *_: SimpleNamespace(complete=False))
+    by_loops = mechanism.direct(inputs)
+    assert "2 beside the model of the closed form left out" in by_loops.right
+    assert (by_loops.complete, by_loops.complete_for) == (by_form.complete, by_form.complete_for)
+    assert len(by_form) == 4
+    poses, others = (np.array([own.pose for own in found]) for found in (by_form, by_loops))
+    assert np.allclose(poses[np.argsort(poses[:, 2])], others[np.argsort(others[:, 2])], rtol=0, atol=1e-6)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,8 @@ from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.existence import allows, exists, vanishes
 from assur.kinematics.closed_form.mode_reading import ModeReading
-from assur.kinematics.modes import Problem, mode_texts, sign_names
-from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, scale
+from assur.kinematics.modes import Problem, all_modes, mode_signs, mode_texts, sign_axes, sign_names
+from assur.kinematics.status import FACTOR_TOLERANCE, Status, branch_kernel, classify, closed_form_of, scale
 from assur.model.closed_form import Branch, Margin
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
@@ -251,3 +252,28 @@ class Branches(SolutionSet):
     def _where_real(self, values: FloatArray) -> FloatArray:
         real = self._real if values.ndim == self._real.ndim else self._real[..., None]
         return np.where(real, values, np.nan)
+
+
+def branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None = None) -> Branches:
+    """Every branch of a kernel at inputs or poses (..., n), or the one of a mode: one reading of the kernel.
+
+    >>> from assur.model.registry import load_record
+    >>> branches(load_record("fivebar"), "inverse", np.array([[0.0, 200.0], [0.0, 900.0]])).exists.sum(axis=1)
+    array([4, 0])
+    """
+    form = closed_form_of(record)
+    names = sign_names(record, problem)
+    if mode is None:
+        sign, shape = sign_axes(names), (2,) * len(names)
+        asked = [mode_signs(record, problem, text) for text in all_modes(record, problem)]
+    else:
+        asked = [mode_signs(record, problem, mode)]
+        sign, shape = SimpleNamespace(**dict(zip(names, map(float, asked[0]), strict=True))), ()
+    flat = given.reshape(-1, given.shape[-1])
+    components = border.input_components if problem == "direct" else border.pose_components
+    kernel = branch_kernel(record) if problem == "direct" else form.inverse
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # where a margin degenerates; its status says so
+        branch = kernel(Floats(), kernel_dimensions(record), components(record, flat), sign)
+    return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)

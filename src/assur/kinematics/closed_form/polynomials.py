@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.assemblies import assemblies
+from assur.kinematics.assemblies import ANOTHER, assemblies
+from assur.kinematics.closed_form.branches import branches
 from assur.kinematics.closed_form.roots import roots_of
 from assur.kinematics.closed_form.systems import solutions_of
+from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.modes import Method
+from assur.kinematics.pose import pose_of
+from assur.kinematics.search import places
+from assur.kinematics.status import Status, closed_form_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 
@@ -21,12 +28,29 @@ def polynomial_solutions(
 ) -> SolutionSet:
     """The roots of a polynomial or of a system of them.
 
-    A single problem that the roots of one polynomial leave open goes to the loops in turn, where they do not.
+    A single problem that the roots of one polynomial leave open goes to the loops in turn, where they do not; what they
+    find beside the model of the closed form is left out, as its roots leave it out.
     """
     if isinstance(kernel, PolynomialSystem):
         return solutions_of(record, kernel, given, only)
     if method == "auto" and given.ndim == 1 and not roots_of(record, kernel, given, "").complete:
         found = assemblies(record, "direct", given, only, "loops", crossed=False)
         if found.all_known:
-            return found
+            return _of_model(record, found)
     return roots_of(record, kernel, given, only)
+
+
+def _of_model(record: MechanismRecord, found: JointGraphSolutions) -> JointGraphSolutions:
+    """Without assemblies that a reduced closed form leaves out: at their poses it has others, and knows them all."""
+    if closed_form_of(record).complete_for == "joint_graph" or not len(found.assemblies):
+        return found
+    own = branches(record, "inverse", pose_of(record, found.assemblies))
+    where, unsure = places(record, found.assemblies), np.isin(own.overall_status, (Status.not_closed, Status.undecided))
+    kept = np.array([
+        open_question or bool(np.any(np.max(np.abs(places(record, joints[real]) - place), axis=1) < ANOTHER))
+        for place, joints, real, open_question in zip(where, own.joints, own.exists, unsure, strict=True)
+    ], dtype=bool)  # fmt: skip
+    if np.all(kept):
+        return found
+    left_out = f"{np.sum(~kept)} beside the model of the closed form left out"
+    return replace(found, assemblies=found.assemblies[kept], reason=f"{found.reason}; {left_out}")
