@@ -133,7 +133,7 @@ def operation_modes(what: str | Path | MechanismRecord | Sequence[str], /) -> tu
     """The operation modes of a mechanism wherever it can be assembled: kinds that are met, not proved to be all.
 
     Assemblies are drawn by chance, of chains with several dimensions; of files with theirs. Modes that meet at home
-    come first.
+    come first. Each says which others it `meets`: at home, or at assemblies on random paths.
 
     Args:
         what: as `topology` takes it.
@@ -149,7 +149,7 @@ def operation_modes(what: str | Path | MechanismRecord | Sequence[str], /) -> tu
     >>> sorted(mode.name for mode in operation_modes(load_record("three_upu")))
     ['2T1R', '3R', '3T']
     """
-    return met_modes(_linkages(what, None)[0])
+    return met_modes(_linkages(what, None)[0], meeting=True)
 
 
 def _linkages(

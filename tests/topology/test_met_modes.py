@@ -6,9 +6,13 @@ import pytest
 import assur
 from assur.derived_topology import operation_modes
 from assur.joint_graph.frames import frames
-from assur.kinematics.closure import assemble, closure_error, mobility
+from assur.kinematics.closure import assemble, closure_error, closure_jacobian, mobility
 from assur.kinematics.home import home_values
 from assur.numerics import rotations
+from assur.topology.met_modes import met_modes
+from assur.topology.notation import parse_chains
+from assur.topology.screws.assembled import assembled_at
+from assur.topology.screws.placing import place
 
 
 def assembly(record, mode):
@@ -23,6 +27,12 @@ def turned(record, start):
     rotation = frames(record, near.values[near.closed])[record.platform.link][0]
     assert len(rotation) > 20
     return rotations.to_vector(np.swapaxes(rotation[:1], -1, -2) @ rotation)
+
+
+def singular_values(record, value):
+    """Of the closure at joint values (n,), as shares of the largest."""
+    singular = np.linalg.svd(closure_jacobian(record, value[None])[0], compute_uv=False)
+    return singular / singular[0]
 
 
 @pytest.fixture(scope="module")
@@ -54,3 +64,39 @@ def test_a_parallelogram_folds_over_and_what_has_crossed_is_named():
 def test_drives_that_do_not_fix_a_mode_give_it_no_coupling_degree():
     chains = ["R[z] E[x] R[z]", "R[z] E[y] R[z]", "R[z] E[0.6,0.8,0] R[z]"]
     assert all(mode.coupling_degree is None for mode in operation_modes(chains))
+
+
+def test_where_two_modes_meet_the_loops_are_closed_and_singular(upu):
+    """By the joint graph: a freedom more than in any of them."""
+    record, modes = upu
+    assert {other.mode for mode in modes.values() for other in mode.meets} == set(modes)
+    for mode in modes.values():
+        for other in mode.meets:
+            value = assembly(record, other)
+            assert closure_error(record, value[None])[0] < 1e-8
+            inside, there = (singular_values(record, place) for place in (assembly(record, mode), value))
+            rank = np.sum(inside > 1e-6)
+            assert inside[rank - 1] > 1e-3 > 1e-4 > there[rank - 1]
+            assert mode.name in {back.mode for back in modes[other.mode].meets}
+
+
+def test_a_parallelogram_folds_over_where_it_is_flat():
+    built = place(parse_chains(["P(4R)[z] R[z]", "R[z] R[z] R[z]"]))
+    (first, second) = met_modes([built] * 2, meeting=True)
+    assert [[(other.mode, other.at_home) for other in mode.meets] for mode in (first, second)] == [
+        [(second.name, False)],
+        [(first.name, False)],
+    ]
+    value = np.concatenate([first.meets[0].example[name] for name in built.joints])
+    flat = assembled_at(built, value)
+    points = np.array([flat.joints[name].point for name in ("Pa1.a", "Pa1.b", "Pa1.c", "Pa1.d")])
+    assert np.linalg.matrix_rank(points[1:] - points[0], tol=1e-4) == 1
+
+
+def test_modes_of_home_meet_there():
+    axes = [(1, 0), (-0.5, 0.75**0.5), (-0.5, -(0.75**0.5))]
+    chains = [f"U[{x},{y},0; 0,0,1] P[{-y},{x},0] U[0,0,1; {x},{y},0]" for x, y in axes]
+    modes = {mode.name: mode for mode in operation_modes(chains)}
+    at_home = [other.mode for other in modes["2T1R"].meets if other.at_home]
+    assert at_home == ["3T"]
+    assert {value for name in modes["2T1R"].meets[0].example.values() for value in name} == {0.0}

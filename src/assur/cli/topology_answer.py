@@ -126,7 +126,7 @@ def _written(item: Improvement) -> str:
 
 
 def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:
-    names = ("mode", say("POC set"), "dim", "F", say("κ"), "at home", "crossed")
+    names = ("mode", say("POC set"), "dim", "F", say("κ"), "at home", "meets", "crossed")
     rows = [
         (
             mode.name,
@@ -135,6 +135,7 @@ def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:
             str(mode.dof),
             "-" if mode.coupling_degree is None else str(mode.coupling_degree),
             "yes" if mode.at_home else "",
+            ", ".join(f"{other.mode} at home" if other.at_home else other.mode for other in mode.meets),
             ", ".join(mode.crossed),
         )
         for mode in modes

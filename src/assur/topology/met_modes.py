@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from string import ascii_lowercase
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError, UsageError
-from assur.results.answers.topology import MetMode
+from assur.results.answers.topology import MetMode, ModeMeeting
 from assur.topology.agreement import by_twists
 from assur.topology.analysis import held_in
 from assur.topology.answers import written_poc
@@ -18,8 +19,10 @@ from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.poc import motion_name
+from assur.topology.screws.configurations import Hold
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.mode_kinds import ModeKind, kind_around, kinds_met
+from assur.topology.screws.mode_meetings import meetings_met
 from assur.topology.screws.modes import operation_modes
 from assur.topology.screws.twists import edges, motion_space
 from assur.work import stage
@@ -32,11 +35,12 @@ NOT_ALL = "modes: met by chance among assemblies, not proved to be all"
 
 
 @stage("operation modes")
-def met_modes(linkages: Sequence[Linkage]) -> tuple[MetMode, ...]:
+def met_modes(linkages: Sequence[Linkage], *, meeting: bool = False) -> tuple[MetMode, ...]:
     """Kinds of operation modes, those of home first.
 
     Args:
         linkages: of other dimensions each; or one linkage several times, whose assemblies are then drawn as often.
+        meeting: whether to look where they meet.
 
     Example: a planar 3-RRR moves in one way wherever it is assembled.
 
@@ -53,10 +57,51 @@ def met_modes(linkages: Sequence[Linkage]) -> tuple[MetMode, ...]:
     own = {kind: values for kind, values in draws[0].items() if count[kind] >= min(DRAWS, len(draws))}
     own = {**at_home, **own}
     kinds = sorted(own, key=lambda kind: (kind not in at_home, bool(kind.crossed)))
-    return tuple(
-        _mode(linkages[0], kind, own[kind], name, at_home=kind in at_home)
-        for kind, name in zip(kinds, _names(kinds), strict=True)
+    names = dict(zip(kinds, _names(kinds), strict=True))
+    modes = [_mode(linkages[0], kind, own[kind], name, at_home=kind in at_home) for kind, name in names.items()]
+    if not meeting or len(modes) == 1:
+        return tuple(modes)
+    met = {
+        mode.name: list(_meetings(linkages[0], mode, own[kind], names, at_home, hold))
+        for kind, mode in zip(kinds, modes, strict=True)
+    }
+    return tuple(replace(mode, meets=tuple(_seen_from(mode.name, met))) for mode in modes)
+
+
+def _seen_from(name: str, met: Mapping[str, Sequence[ModeMeeting]]) -> Iterator[ModeMeeting]:
+    """Meetings of a mode, and those that were seen from the other one alone."""
+    yield from met[name]
+    seen = {meeting.mode for meeting in met[name]}
+    yield from (
+        replace(meeting, mode=other)
+        for other, meetings in met.items()
+        for meeting in meetings
+        if meeting.mode == name and other not in seen
     )
+
+
+def _meetings(
+    linkage: Linkage,
+    mode: MetMode,
+    values: FloatArray,
+    names: Mapping[ModeKind, str],
+    at_home: Collection[ModeKind],
+    hold: Hold | None,
+) -> Iterator[ModeMeeting]:
+    """Where a mode meets others of those that are named: all of home do so there, the others on random paths."""
+    there = [name for kind, name in names.items() if mode.at_home and kind in at_home and name != mode.name]
+    still = {joint: (0.0,) * len(place) for joint, place in mode.example.items()}
+    yield from (ModeMeeting(name, True, still) for name in there)
+    if len(there) + 1 == len(names):
+        return
+    for kind, place in meetings_met(linkage, values[0], hold):
+        if names.get(kind, mode.name) not in (mode.name, *there):
+            yield ModeMeeting(names[kind], False, _example(linkage, place))
+
+
+def _example(linkage: Linkage, value: FloatArray) -> dict[str, tuple[float, ...]]:
+    """Joint values (n,) by joints."""
+    return {joint: tuple(map(float, value[place])) for joint, place in linkage.slices.items()}
 
 
 def _of_home(linkage: Linkage) -> dict[ModeKind, FloatArray]:
@@ -80,9 +125,8 @@ def _names(kinds: Sequence[ModeKind]) -> list[str]:
 
 def _mode(linkage: Linkage, kind: ModeKind, values: FloatArray, name: str, *, at_home: bool) -> MetMode:
     poc = by_twists(motion_space(edges(linkage, values), linkage.base, linkage.platform))
-    at = {joint: tuple(map(float, values[0][place])) for joint, place in linkage.slices.items()}
     degree = _coupling_degree(linkage, values)
-    return MetMode(name, written_poc(poc), kind.freedoms, degree, at_home, kind.crossed, at)
+    return MetMode(name, written_poc(poc), kind.freedoms, degree, at_home, kind.crossed, _example(linkage, values[0]))
 
 
 def _coupling_degree(linkage: Linkage, values: FloatArray) -> int | None:

@@ -145,12 +145,22 @@ class OperationModeFacts:
 
 
 @dataclass(frozen=True)
+class ModeMeeting:
+    """Where a mode meets another one, by its name: at home, or at an assembly on a random path, as in `MetMode`."""
+
+    mode: str
+    at_home: bool
+    example: Mapping[str, tuple[float, ...]]
+
+
+@dataclass(frozen=True)
 class MetMode:
     """A kind of operation mode that was met among a mechanism's assemblies.
 
     `name` counts the independent elements of its POC set, as 3T, 2T1R; kinds of one name have a letter after it.
     `coupling_degree` is null where the drives do not fix it. `crossed` are parallelograms that have crossed over.
-    `example` is an assembly: for each joint how far each of its freedoms is from home, in rad and lengths.
+    `example` is an assembly: for each joint how far each of its freedoms is from home, in rad and lengths. `meets` are
+    other modes that were entered from this one.
     """
 
     name: str
@@ -160,6 +170,7 @@ class MetMode:
     at_home: bool
     crossed: Names
     example: Mapping[str, tuple[float, ...]]
+    meets: tuple[ModeMeeting, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.name}: F = {self.dof}, {self.poc.text} with dim {self.poc.dim}"

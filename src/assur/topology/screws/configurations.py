@@ -7,6 +7,7 @@ connected with home by a motion of the linkage, in the operation mode that home 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -23,6 +24,7 @@ from assur.topology.screws.screws import PlacedLinks, ScrewTree, screw_tree
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 Hold = Literal["orientation", "parallelograms"]
+Equations = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
 
 CLOSED = 1e-11
 """Rotation (rad) and gap (lengths) below which a loop is closed."""
@@ -269,10 +271,9 @@ def follows(linkage: Linkage, values: FloatArray, bases: FloatArray, seed: int =
     return bool(np.all((shares[1] < STRAIGHT) | (shares[1] < 2 * FINITE[1] / FINITE[0] * shares[0])))
 
 
-def loop_system(linkage: Linkage, at: FloatArray) -> FloatArray:
-    """Derivatives (N, rows, n) of the loop equations at joint values (N, n), rad and lengths of the linkage."""
-    system = _System.of(linkage, screw_tree(linkage), None)
-    return system.at(at, np.arange(len(at)))[1]
+def loop_equations(linkage: Linkage, hold: Hold | None = None) -> Equations:
+    """Residuals (N, rows) and derivatives (N, rows, n) at joint values (N, n), rad and lengths of the linkage."""
+    return _System.of(linkage, screw_tree(linkage), hold).at
 
 
 def finite_directions(linkage: Linkage, value: FloatArray, hold: Hold | None = None) -> FloatArray:

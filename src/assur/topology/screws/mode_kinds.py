@@ -74,7 +74,7 @@ def kinds_met(linkage: Linkage, seed: int = 0, hold: Hold | None = None) -> dict
     assemblies = assemblies[lasting(linkage, assemblies, seed, hold)]
     alike: dict[tuple[object, ...], list[FloatArray]] = {}
     for value in assemblies:
-        if (numbers := _numbers(linkage, value[None])) is not None:
+        if (numbers := numbers_at(linkage, value[None])) is not None:
             alike.setdefault((*numbers, crossed(linkage, value)), []).append(value)
     met: dict[ModeKind, FloatArray] = {}
     for _, values in sorted(alike.items(), key=lambda pair: -len(pair[1])):
@@ -89,9 +89,9 @@ def kind_around(
     linkage: Linkage, value: FloatArray, seed: int = 0, hold: Hold | None = None
 ) -> tuple[ModeKind, FloatArray] | None:
     """The kind of an assembly (n,) and configurations (N, n) of it; None where walks from it lead to several."""
-    numbers = _numbers(linkage, value[None])
+    numbers = numbers_at(linkage, value[None])
     ends = walked(linkage, np.repeat(value[None], WALKS, axis=0), seed, hold)
-    same = [end for end in ends if _numbers(linkage, end[None]) == numbers]
+    same = [end for end in ends if numbers_at(linkage, end[None]) == numbers]
     if numbers is None or len(same) < WALKS / 2:
         return None
     values = np.stack([value, *same])
@@ -104,7 +104,7 @@ def kind_around(
     return ModeKind(t, r, dim, freedoms, rank_of_closure, *fixed, crossed(linkage, value)), values
 
 
-def _numbers(linkage: Linkage, values: FloatArray) -> tuple[int, int, int, int, int] | None:
+def numbers_at(linkage: Linkage, values: FloatArray) -> tuple[int, int, int, int, int] | None:
     """t, r, dim, F and the rank of the closure at configurations (N, n), None where ranks are not clear.
 
     They are not where the three axes of a ball joint lie in a plane: it then lacks a freedom that it has.

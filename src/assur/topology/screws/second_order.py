@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.screws.configurations import BLURRED, follows, loop_system, walked
+from assur.topology.screws.configurations import BLURRED, follows, loop_equations, walked
 from assur.topology.screws.edges import along, closure, rank
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.screws import screw_tree
@@ -121,14 +121,14 @@ def second_order(linkage: Linkage, value: FloatArray) -> SecondOrder:
     (3, 2, True)
     """
     at = value / screw_tree(linkage).scales
-    left, singular, turned = np.linalg.svd(loop_system(linkage, at[None])[0])
+    left, singular, turned = np.linalg.svd(_derivatives(linkage, at[None])[0])
     known = int(np.sum(singular > BLURRED * max(float(singular.max(initial=0.0)), BLURRED)))
     free, stresses = turned[known:].T, left[:, known:]
     count = free.shape[1]
     if not count:
         return SecondOrder(0, free, proved=False)
     # the loops are open by the square of the step there: what that changes is the same on both sides
-    ahead, behind = (loop_system(linkage, at + sign * DIFFERENCE * free.T) for sign in (1, -1))
+    ahead, behind = (_derivatives(linkage, at + sign * DIFFERENCE * free.T) for sign in (1, -1))
     slope = (ahead - behind) / (2 * DIFFERENCE)  # (k, rows, n)
     forms = np.einsum("ra,krn,nl->akl", stresses, slope, free)
     forms = (forms + forms.swapaxes(1, 2)) / 2  # (a, k, k)
@@ -165,3 +165,8 @@ def _clear_rank(matrix: FloatArray) -> int | None:
     least = np.min(np.where(counted, singular, np.inf))
     most = np.max(np.where(counted, 0.0, singular), initial=0.0)
     return int(ranks[0]) if np.all(ranks == ranks[0]) and least >= CLEAR / 10 * most else None
+
+
+def _derivatives(linkage: Linkage, at: FloatArray) -> FloatArray:
+    """Derivatives (N, rows, n) of the loop equations at joint values (N, n), rad and lengths of the linkage."""
+    return loop_equations(linkage)(at, np.arange(len(at)))[1]
