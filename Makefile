@@ -27,8 +27,8 @@ SEED ?= $(shell date +%Y%m%d)
 test-deep: $(VENV)/installed-$(if $(ALL),all,dev) ## the long walks, real kills and thousands of mutations that `test` leaves out; SEED=20260101 draws its examples again
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m "deep or hypothesis" --hypothesis-profile=deep --hypothesis-seed=$(SEED) $(ARGS)
 
-test-engines: $(VENV)/installed-engines ## MuJoCo, Newton, Drake and Pinocchio read our exports; installs them, 1 GB, and Newton compiles for a minute at first
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m engines tests/export $(ARGS)
+test-engines: $(VENV)/installed-engines ## MuJoCo, Newton, Drake and Pinocchio read our exports, PyNite bends our bars; installs them, 1 GB, and Newton compiles for a minute at first
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m engines tests/export tests/machine $(ARGS)
 
 mutations: $(VENV)/installed-dev ## put faults into a copy of the source, one by one: the test named for each notices it (needs Node)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 -m mutation tests/test_mutations.py

@@ -124,6 +124,12 @@ def test_a_clearance_acts_as_far_as_the_loops_close(zeng):
     assert own.clearances["B1"][2] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_joints_without_dimensions_have_errors_of_inputs_alone():
+    fivebar = assur.load("fivebar")
+    bare = replace(fivebar, joints={name: replace(joint, written=None) for name, joint in fivebar.joints.items()})
+    assert list(pose_errors_at(bare, fivebar.home_values).sensitivity) == ["theta1", "theta2"]
+
+
 def test_where_there_is_nothing_to_say(zeng):
     fivebar = assur.load("fivebar", l2=150)
     assert fivebar.errors([0, 60]).status == Status.parallel

@@ -81,7 +81,7 @@ class ErrorClosure:
 
     def sizes(self, twists: FloatArray) -> FloatArray:
         """How large (k,) errors are, of twists (6 J, k) in the joints."""
-        parts = self.unit @ twists.reshape(-1, 6, twists.shape[1])
+        parts = self.unit @ twists.reshape(len(twists) // 6, 6, twists.shape[1])
         return np.asarray(np.linalg.norm(parts, axis=(0, 1)))
 
     def stress(self, left_open: FloatArray) -> FloatArray:

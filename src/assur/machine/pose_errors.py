@@ -126,7 +126,7 @@ def pose_errors_at(record: MechanismRecord, values: FloatArray) -> PoseErrors:
         return PoseErrors(record, values, Status.parallel, {}, {}, {}, (), {})
     errors = geometry_errors(record, values)
     _check_tolerances(record, errors.names)
-    twists = errors.twists.reshape(len(errors.names), -1).T
+    twists = errors.twists.reshape(len(errors.names), 6 * len(errors.joints)).T
     moved, left_open = own.answer(twists)
     moved[:3] += errors.point.T
     lost = np.flatnonzero(np.linalg.norm(left_open, axis=0) > FITS * own.sizes(twists))
