@@ -10,7 +10,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import qr
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
@@ -41,6 +40,8 @@ def related(record: MechanismRecord) -> tuple[tuple[int, ...], FloatArray] | Non
     >>> changes[-1].round(6)
     array([-1.,  1., -1.,  1.])
     """
+    from scipy.linalg import qr  # takes as long to load as all of a short answer
+
     home, units = home_values(record), joint_units(record)
     if joint_graph(record).turns:
         return None
