@@ -77,3 +77,12 @@ def test_a_file_without_labels_is_checked_without_what_draws(tmp_path):
     assert main(["new", file, "--limb", "R[z] R[z] R[z]"]) == 0
     third_party, _ = loaded(tmp_path, ("check", file))
     assert third_party.isdisjoint({"matplotlib", "manifold3d", "networkx", "scipy"})
+
+
+def test_a_second_answer_about_a_file_of_ones_own_loads_no_scipy(tmp_path):
+    """Names of modes are kept by then."""
+    file = str(tmp_path / "mine.toml")
+    assert main(["new", file, "--limb", "P[z] R[y] S"]) == 0
+    pose = ("inverse", file, "300", "5", "-3")
+    loaded(tmp_path, pose)
+    assert loaded(tmp_path, pose)[0] - {"assur"} <= LINE | READ | NUMPY
