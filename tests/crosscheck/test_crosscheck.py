@@ -12,6 +12,7 @@ from assur.crosscheck.crosscheck import MEANINGS, TOLERANCES, crosscheck
 from assur.crosscheck.samples import configurations
 from assur.export.mjcf import mjcf
 from assur.kinematics.status import Status
+from assur.model.machine_data import LinkData
 
 CLOSED_FORM = "Jacobian, closed form"
 ALWAYS = set(TOLERANCES) - {"self-motions", CLOSED_FORM}
@@ -70,7 +71,16 @@ def test_a_missing_constraint_differs_in_the_freedoms_and_in_what_they_leave_ope
     text = mjcf(assur.load("fivebar"))
     loose = re.sub(r"<connect [^>]*>", "", text)
     found = failing(crosscheck(assur.load("fivebar"), samples=3, text=loose))
-    assert found == {"freedoms", "Jacobian, joint graph", CLOSED_FORM, "assembly by the engine"}
+    assert found == {"freedoms", "Jacobian, joint graph", CLOSED_FORM, "assembly by the engine", "forces of actuators"}
+
+
+@pytest.mark.sim
+def test_a_link_of_another_mass_differs_in_the_forces_alone():
+    """Along the plane of the links, so that gravity does not tell it, but a motion does."""
+    record = assur.load("fivebar")
+    links = {**record.machine.links, "rod1": LinkData(mass=0.7)}
+    other = dataclasses.replace(record, machine=dataclasses.replace(record.machine, links=links))
+    assert failing(crosscheck(record, samples=2, text=mjcf(other))) == {"forces of actuators"}
 
 
 @pytest.mark.sim

@@ -32,8 +32,9 @@ def crosscheck(
 
     The engine loads the exported file. At random poses, and at inputs that
     reach one, the frames of all links, its loop constraints, inputs, freedoms
-    and Jacobian are compared with ours, and where its own Newton iteration ends
-    from nearby. Exit code 1: a difference is larger than rounding.
+    and Jacobian are compared with ours, where its own Newton iteration ends
+    from nearby, and, where the file says all masses, the forces of the actuators
+    in motion, by its masses and constraints. Exit code 1: a difference is larger than rounding.
 
     For example:
         assur crosscheck fivebar --engine mujoco

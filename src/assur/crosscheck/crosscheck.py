@@ -1,4 +1,4 @@
-"""Our kinematics against an engine's: poses, loops, inputs, freedoms, Jacobians, and its own way to an assembly.
+"""Our mechanics against an engine's: poses, loops, inputs, freedoms, Jacobians, its own way to an assembly, forces.
 
 Lengths are compared as shares of the characteristic length, turns in rad, Jacobians relative to their largest entry
 where that is over 1.
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from assur.crosscheck import engine as engines
 from assur.crosscheck.engine import Engine
+from assur.crosscheck.projected_dynamics import BareBodies, bare_bodies, projected_forces
 from assur.crosscheck.samples import SolvedConfiguration, configurations
 from assur.errors import Interrupted
 from assur.joint_graph.frames import Frame, frames
@@ -23,6 +24,9 @@ from assur.kinematics.closure import mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
+from assur.machine.forces import forces_at
+from assur.machine.loads import load_of
+from assur.machine.masses import masses
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import rotations
@@ -37,6 +41,9 @@ PUSHES = (1e-3, 1e-4, 1e-5)
 The nearer ones are for where another assembly lies next to ours; a false one of ours would not be found from there.
 """
 
+FAST = 0.3
+"""Characteristic lengths, and rad, per second of motions in which forces are compared."""
+
 LEAST_MOTION = 1e-3
 """Of the platform where inputs are locked and we say that it moves: its rate for a unit rate of the joints."""
 
@@ -49,6 +56,7 @@ TOLERANCES = {
     "Jacobian, joint graph": 1e-6,
     "Jacobian, closed form": 1e-6,
     "assembly by the engine": 1e-8,
+    "forces of actuators": 1e-6,
 }
 """The largest difference of each kind that is taken for rounding; counts must be equal."""
 
@@ -61,6 +69,7 @@ MEANINGS = {
     "Jacobian, joint graph": "rates of the pose per input rate, by screws",
     "Jacobian, closed form": "the same by the closed form",
     "assembly by the engine": "the platform where its Newton ends, inputs locked",
+    "forces of actuators": "in motion under gravity and a load, by its masses and constraints; once in each mode",
 }
 
 
@@ -83,6 +92,8 @@ def crosscheck(
     record = record.determined  # whose inputs' rates the engine can choose one by one
     rng = np.random.default_rng(seed)
     there = engines.engine(record, text)
+    own = None if masses(record).lacking else bare_bodies(there)
+    weighed: set[tuple[str, str]] = set()  # forces take longer than all the rest: once in each mode
     found = configurations(record, samples, rng)
     total = len(found)
     largest: dict[str, tuple[float, str]] = {}
@@ -90,7 +101,11 @@ def crosscheck(
     done = 0
     try:
         for item in found:
-            for kind, size in _compared(there, item, rng).items():
+            sizes = _compared(there, item, rng)
+            if own is not None and item.status == Status.regular and (item.problem, item.mode) not in weighed:
+                sizes |= _forces_apart(there, own, item, rng)
+                weighed.add((item.problem, item.mode))
+            for kind, size in sizes.items():
                 count[kind] += 1
                 size = np.inf if np.isnan(size) else size
                 if size > largest.get(kind, (-1.0, ""))[0]:
@@ -136,6 +151,22 @@ def _compared(engine: Engine, sample: SolvedConfiguration, rng: np.random.Genera
         found[kind] = max(missed, open_, float(np.max(np.abs(jacobian - ours_)))) / scale
     found["assembly by the engine"] = _settled(engine, sample, ours[record.platform.link], rng)
     return found
+
+
+def _forces_apart(
+    engine: Engine, own: BareBodies, sample: SolvedConfiguration, rng: np.random.Generator
+) -> dict[str, float]:
+    """How far forces of the actuators are from the engine's, as a share of the largest; none near singularities."""
+    record = engine.record
+    lengths = np.array([engine.bodies.size if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
+    velocity, acceleration = FAST * rng.normal(size=(2, len(lengths))) * lengths
+    wrench = rng.normal(size=6)
+    ours = forces_at(record, sample.joints[None], load_of(wrench), velocity[None], acceleration[None])
+    if ours.status[0] != Status.regular:
+        return {}
+    theirs = projected_forces(engine, own, sample.joints, (velocity, acceleration), wrench)
+    size = max(float(np.max(np.abs(ours.forces))), float(np.max(np.abs(theirs))))
+    return {"forces of actuators": float(np.max(np.abs(ours.forces[0] - theirs))) / size}
 
 
 def _settled(engine: Engine, sample: SolvedConfiguration, ours: Frame, rng: np.random.Generator) -> float:

@@ -83,10 +83,11 @@ def put(engine: Engine, joint_values: FloatArray) -> None:
             engine.data.qpos[address : address + 4] = quaternion
         else:
             engine.data.qpos[address] = step.value(joint_values)
-    _positions(engine)
+    positions(engine)
 
 
-def _positions(engine: Engine) -> None:
+def positions(engine: Engine) -> None:
+    """Let the engine compute positions and constraints where it stands."""
     engine.mujoco.mj_fwdPosition(engine.model, engine.data)
 
 
@@ -133,13 +134,13 @@ def platform_jacobian(engine: Engine) -> tuple[FloatArray, float, float]:
     inverse = np.linalg.pinv(jacobian[:, free], rcond=RANK_GAP)
     moves = np.zeros((engine.model.nv, len(signs)))
     moves[free], moves[engine.dofs] = -inverse @ driven, np.diag(signs)
-    rates = _pose_rates(engine) * engine.units  # (k, nv)
+    rates = pose_rates(engine) * engine.units  # (k, nv)
     locked = rates[:, free] @ (np.eye(len(free)) - inverse @ jacobian[:, free])
     missed = float(np.max(np.abs(jacobian @ moves), initial=0.0))
     return rates @ moves, missed, float(np.max(np.abs(locked), initial=0.0))
 
 
-def _pose_rates(engine: Engine) -> FloatArray:
+def pose_rates(engine: Engine) -> FloatArray:
     """Rates (k, nv) of the pose per rate of each degree of freedom, lengths in the characteristic length."""
     record, model, data = engine.record, engine.model, engine.data
     body = data.body(link_name(record.platform.link))
@@ -169,7 +170,7 @@ def settle(engine: Engine, push: FloatArray) -> bool:
     step[free] = push[free] * engine.units[free]
     for _ in range(MOST_STEPS):
         engine.mujoco.mj_integratePos(engine.model, engine.data.qpos, step, 1.0)
-        _positions(engine)
+        positions(engine)
         residual, jacobian = constraints(engine)
         change = np.linalg.lstsq(jacobian[:, free], -residual, rcond=RANK_GAP)[0]
         step[free] = change * engine.units[free]
