@@ -51,7 +51,7 @@ def test_a_check_sets_no_type_to_see_that_labels_can_be_set(cache):
 @pytest.mark.parametrize(
     ("words", "packages", "most"),
     [
-        (("--help",), set(), 20 + len(COMMANDS)),  # of each command its own module
+        (("--help",), set(), 21 + len(COMMANDS)),  # of each command its own module
         (("list",), NUMPY | READ, 122),
         (("show", "zeng2019"), NUMPY, 131),
         (DIRECT, NUMPY, 139),
