@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TypeGuard, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.contract.admission import admitted_record
-from assur.kinematics.structure import linkage
+from assur.kinematics.structure import linkage, values_from_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.topologies import load_topology, means_topology
 from assur.model.topology_description import TopologyDescription
@@ -33,6 +34,7 @@ from assur.topology.screws.recognition import recognised
 from assur.topology.screws.twists import ShakyError
 from assur.topology.shaky import analyse_shaky
 
+FloatArray = NDArray[np.float64]
 PLACINGS = 3
 """Random dimensions that are tried for chains that do not move, or are shaky."""
 
@@ -150,6 +152,23 @@ def operation_modes(what: str | Path | MechanismRecord | Sequence[str], /) -> tu
     ['2T1R', '3R', '3T']
     """
     return met_modes(_linkages(what, None)[0], meeting=True)
+
+
+def mode_values(record: MechanismRecord, name: str) -> FloatArray:
+    """Joint values (n,) of an assembly in an operation mode that `operation_modes` names, in rad and lengths.
+
+    Errors:
+        UnknownNameError: no such mode is met.
+
+    >>> from assur.model.registry import load_record
+    >>> mode_values(load_record("three_upu"), "3R").shape
+    (15,)
+    """
+    built = linkage(record)
+    met = {mode.name: mode for mode in met_modes([built] * DRAWS)}
+    if name not in met:
+        raise UnknownNameError("operation mode", name, met, hint="assur topology --modes lists those met by chance")
+    return values_from_home(record, np.concatenate([met[name].example[joint] for joint in built.joints]))
 
 
 def _linkages(

@@ -1,5 +1,9 @@
 import pytest
 
+from assur.derived_topology import mode_values
+from assur.model.registry import load_record
+from assur.page.address import joints_hash
+
 
 def test_it_says_what_it_wrote(assur_cli, tmp_path):
     path = tmp_path / "z.html"
@@ -48,3 +52,17 @@ def test_misuse_is_refused_and_leaves_nothing(assur_cli, tmp_path, words, messag
     assert (run.code, run.out) == (2, "")
     assert message.format(folder=tmp_path) in run.err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_address_begins_in_the_operation_mode_that_is_named(assur_cli, tmp_path):
+    path = tmp_path / "u.html"
+    run = assur_cli("page", "three_upu", "--mode", "3R", "-o", str(path), "--resolution", "8", "--json")
+    assert (run.code, run.err) == (0, "")
+    values = mode_values(load_record("three_upu"), "3R")
+    assert run.json["address"] == path.as_uri() + joints_hash(values)
+
+
+def test_a_mode_that_is_not_met_is_refused_before_anything_is_written(assur_cli, tmp_path):
+    run = assur_cli("page", "fivebar", "--mode", "3T", "-o", str(tmp_path / "f.html"))
+    assert (run.code, list(tmp_path.iterdir())) == (2, [])
+    assert "1T1R" in run.err

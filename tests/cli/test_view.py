@@ -11,10 +11,16 @@ import urllib.parse
 import webbrowser
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from assur import load
 from assur.cli import viewing
 from assur.cli.main import main
+from assur.joint_graph.frames import frames
+from assur.kinematics.closure import assemble
+from assur.numerics.rotations import to_vector
+from assur.view.link import restored
 
 COMMAND = [sys.executable, "-c", "from assur.cli.main import main; raise SystemExit(main())"]
 
@@ -134,3 +140,22 @@ def test_what_is_no_link_is_refused_before_anything_is_served(link, capsys):
 def test_with_the_second_word_it_warns(host, capsys):
     assert main(["view", "fivebar", "--host", host, "--allow-network", "--no-open"]) == 0
     assert "warning: other machines can reach this view" in capsys.readouterr().err
+
+
+def test_it_begins_in_the_operation_mode_that_is_named():
+    record = load("three_upu")
+    snapshot, _ = restored(record, viewing.link_to_mode(record, "3R", ""))
+    values = snapshot.values
+    moved = assemble(record, values + 0.02 * np.random.default_rng(0).normal(size=(12, len(values))), near=True)
+    turned = frames(record, moved.values[moved.closed])[record.platform.link][0]
+    assert np.linalg.matrix_rank(to_vector(np.swapaxes(turned[:1], -1, -2) @ turned), tol=1e-6) == 3
+
+
+def test_a_mode_that_is_not_met_lists_those_that_are(capsys):
+    assert main(["view", "fivebar", "--mode", "3R", "--no-open"]) == 2
+    assert "operation mode" in capsys.readouterr().err
+
+
+def test_a_link_already_says_where_it_stands(capsys):
+    assert main(["view", "fivebar", "--mode", "1T1R", "--link", "at=1,2,3,4,5", "--no-open"]) == 2
+    assert "--mode and --link at once" in capsys.readouterr().err

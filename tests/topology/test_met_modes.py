@@ -8,6 +8,8 @@ from assur.derived_topology import operation_modes
 from assur.joint_graph.frames import frames
 from assur.kinematics.closure import assemble, closure_error, closure_jacobian, mobility
 from assur.kinematics.home import home_values
+from assur.kinematics.structure import linkage, values_from_home
+from assur.model.registry import load_record
 from assur.numerics import rotations
 from assur.topology.met_modes import met_modes
 from assur.topology.notation import parse_chains
@@ -100,3 +102,14 @@ def test_modes_of_home_meet_there():
     at_home = [other.mode for other in modes["2T1R"].meets if other.at_home]
     assert at_home == ["3T"]
     assert {value for name in modes["2T1R"].meets[0].example.values() for value in name} == {0.0}
+
+
+@pytest.mark.parametrize("name", ["three_rps", "zeng2019"])
+def test_an_assembly_of_a_mode_is_one_of_the_file(name):
+    """Ball joints, aliases and parallelograms that crossed over among them."""
+    record = load_record(name)
+    built = linkage(record)
+    for mode in met_modes([built] * 2):
+        values = values_from_home(record, np.concatenate([mode.example[joint] for joint in built.joints]))
+        assert closure_error(record, values[None])[0] < 1e-9
+        assert mobility(record, values).freedoms == mode.dof

@@ -11,6 +11,10 @@ from cyclopts import Parameter
 from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from assur.mechanism import Mechanism
     from assur.results.answers.files import PageContent
 
 ENDINGS = (".html", ".htm")
@@ -24,6 +28,10 @@ def page(
         str,
         Parameter(name=("-o", "--output"), metavar="FILE", help="The file to be written; page.html if left out."),
     ] = "page.html",
+    mode: Annotated[
+        str,
+        Parameter(metavar="NAME", help="Also print the address that begins in this mode of `assur topology --modes`."),
+    ] = "",
     resolution: Annotated[
         int | None,
         Parameter(help="Cells along each coordinate of the workspace; what a page can show if left out."),
@@ -40,29 +48,42 @@ def page(
     For example:
         assur page zeng2019 -o zeng.html
         assur page ./my.toml --set l2=300 -o my.html
+        assur page three_upu --mode 3R
     """
     record = shared.mechanism(mechanism)
-    from assur.cli.output import heading
+    from assur.cli.output import Verbatim, heading
     from assur.cli.paths import output_file
     from assur.cli.progress import progress
     from assur.page import page_html, scene
+    from assur.page.address import joints_hash
+    from assur.results.answers.answer import ABSENT
     from assur.results.answers.files import WrittenPage
     from assur.results.files import write_whole
 
     path = output_file(output, ENDINGS)
+    values = _of_mode(record, mode) if mode else None
     with progress("page", shared) as step:
         found = scene(record, resolution=resolution, progress=step)
         write_whole(path, page_html(found))
     size = path.stat().st_size
     inside = _inside(found)
+    address = ABSENT if values is None else path.resolve().as_uri() + joints_hash(values)
+    begins = [Verbatim(f"in mode {mode}: {address}")] if values is not None else []
     return Outcome(
-        WrittenPage(record.name, str(path), size, inside),
+        WrittenPage(record.name, str(path), size, inside, address),
         lambda: [
             heading(f"{record.name}, page"),
             *_lines(inside),
             f"written: {path} ({size / 1e3:.0f} kB); open it in a browser",
+            *begins,
         ],
     )
+
+
+def _of_mode(record: Mechanism, mode: str) -> NDArray[np.float64]:
+    from assur.derived_topology import mode_values
+
+    return mode_values(record, mode)
 
 
 def _inside(scene: Mapping[str, Any]) -> PageContent:

@@ -19,6 +19,9 @@ def view(
     allow_network: Annotated[bool, Parameter(help="Let other machines in: who has the link may use the view.")] = False,
     port: Annotated[int, Parameter(metavar="NUMBER", help="The port; a free one if left out.")] = 0,
     link: Annotated[str, Parameter(metavar="LINK", help="A link that was kept: its dimensions, pose and camera.")] = "",
+    mode: Annotated[
+        str, Parameter(metavar="NAME", help="Begin in this operation mode, one that `assur topology --modes` names.")
+    ] = "",
     no_open: Annotated[bool, Parameter(help="Print the link and open no browser.")] = False,
     shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
@@ -31,8 +34,10 @@ def view(
     For example:
         assur view zeng2019
         assur view fivebar --set l1=110 --no-open
+        assur view three_upu --mode 3R
     """
     record = shared.mechanism(mechanism)
-    from assur.cli.viewing import outcome
+    from assur.cli.viewing import link_to_mode, outcome
 
+    link = link_to_mode(record, mode, link) if mode else link
     return outcome(record, host=host, port=port, allow_network=allow_network, link=link, opens=not no_open)

@@ -55,6 +55,23 @@ def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: boo
     return Outcome(EndedView(record.name, served.url), lambda: [f"the view of {record.name} has ended"])
 
 
+def link_to_mode(record: MechanismRecord, mode: str, link: str) -> str:
+    """A link to an assembly in an operation mode.
+
+    Errors:
+        UsageError: another link is given too. UnknownNameError: no such mode is met.
+    """
+    if link:
+        raise UsageError(
+            "--mode and --link at once: a link says where the mechanism stands", hint="give one of the two"
+        )
+    from assur.derived_topology import mode_values
+    from assur.view.link import query
+    from assur.view.snapshot import start, with_values
+
+    return query(with_values(start(record), mode_values(record, mode)))
+
+
 def wait() -> None:
     """Until Ctrl-C."""
     threading.Event().wait()

@@ -9,7 +9,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.numerics.rotations import cross
+from assur.numerics.rotations import about_axis, cross, from_vector, to_vector
 from assur.topology.screws.linkage import FloatArray, Group, Linkage, LinkageJoint
 
 
@@ -49,6 +49,27 @@ def linkage(record: MechanismRecord) -> Linkage:
         ),
         length=characteristic_length(record),
     )
+
+
+def values_from_home(record: MechanismRecord, moved: FloatArray) -> FloatArray:
+    """Joint values (n,) of a mechanism from those of its linkage (n,), which are counted from home.
+
+    A ball joint turns in the linkage about the base's three axes as they stand at home, one after the other.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("three_rps")
+    >>> bool(np.allclose(values_from_home(record, np.zeros(15)), home_values(record)))
+    True
+    """
+    values = home_values(record) + moved
+    placed = frames(record, home_values(record))
+    for name, item in record.joints.items():
+        if item.type.ball:
+            place, parent = joint_graph(record).slices[name], placed[item.parent][0]
+            turned = np.linalg.multi_dot([about_axis(*pair) for pair in zip(np.eye(3), moved[place], strict=True)])
+            before = from_vector(home_values(record)[place])
+            values[place] = to_vector(parent.T @ turned @ parent @ before)
+    return np.asarray(values)
 
 
 def _point(joint: Joint, placed: dict[str, Frame]) -> FloatArray:

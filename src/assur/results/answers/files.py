@@ -40,12 +40,13 @@ class PageContent:
 
 @dataclass(frozen=True)
 class WrittenPage(Answer):
-    """A page in which the mechanism can be moved."""
+    """A page in which the mechanism can be moved; its address in an operation mode where one is asked for."""
 
     mechanism: str
     file: str
     bytes: int
     inside: PageContent
+    address: str | Absent = ABSENT
 
 
 @dataclass(frozen=True)
