@@ -1,12 +1,15 @@
 """The bill of materials: every link and every joint is in it, alike ones together, and the table can be read back."""
 
 import csv
+import dataclasses
 import io
 
 import pytest
 
 import assur
 from assur.export.cad.bill import bill, bill_csv
+from assur.machine.masses import masses
+from assur.model.machine_data import LinkData, MachineData
 from assur.results.answers.files import BillRow
 from assur.scene.bodies import bodies, fused
 from catalogue import each
@@ -55,4 +58,15 @@ def test_the_table_reads_back():
     read = list(csv.reader(io.StringIO(bill_csv(rows))))
     assert read[0][:2] == ["kind", "count"]
     assert [row[3].split() for row in read[1:]] == [list(row.names) for row in rows]
-    assert bill_csv([BillRow("buy", 'a "b", c', 1, ("A",))]).splitlines()[1] == 'buy,1,"a ""b"", c",A,'
+    assert bill_csv([BillRow("buy", 'a "b", c', 1, ("A",))]).splitlines()[1] == 'buy,1,"a ""b"", c",A,,'
+
+
+def test_links_are_alike_where_they_weigh_the_same():
+    record = assur.load("delta_4s")
+    (arms,) = [row for row in bill(record) if "leg1.arm" in row.names]
+    assert (arms.count, arms.mass) == (3, pytest.approx(masses(record).bodies["leg1.arm"].mass))
+    links = {**record.machine.links, "leg2.arm": LinkData(mass=9.0)}
+    other = bill(dataclasses.replace(record, machine=dataclasses.replace(record.machine, links=links)))
+    assert {row.names: row.mass for row in other if "leg2.arm" in row.names} == {("leg2.arm",): 9.0}
+    assert bill_csv(other).splitlines()[0].endswith("mass of one in kg")
+    assert all(row.mass is None for row in bill(dataclasses.replace(record, machine=MachineData())))

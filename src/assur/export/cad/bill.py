@@ -1,6 +1,7 @@
 """Bill of materials: which links are made, how many of each kind, and what is bought for the joints, in plain words.
 
-Lengths are in mm. Sizes that the joint graph does not give (thicknesses, pins, rails) are those drawn, to begin with.
+Lengths are in mm, masses those that the file says. Sizes that the joint graph does not give (thicknesses, pins, rails)
+are those drawn, to begin with.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.validation.check import METRES
+from assur.machine.masses import masses
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.results.answers.files import BillRow
 from assur.scene.bodies import LinkBody, bodies, corners, fused
@@ -33,10 +35,10 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
     [('make', 2, ('crank1', 'crank2')), ('make', 1, ('rod1',))]
     """
     millimetre = 1e3 * METRES[record.unit]
-    made = bodies(record)
+    made, weights = bodies(record), masses(record).bodies
     alike: list[tuple[_Form, list[LinkBody]]] = []
     for body in (item for item in made if item.fused):
-        form = _form(body)
+        form = _form(body, weights[body.link].mass if body.link in weights else None)
         group = next((group for first, group in alike if _same(first, form)), None)
         if group is None:
             alike.append((form, [body]))
@@ -49,6 +51,7 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
             len(group),
             tuple(item.link for item in group),
             round(form.volume * millimetre**3, 1),
+            form.mass,
         )
         for form, group in alike
     ]
@@ -66,39 +69,48 @@ def bill_csv(rows: Iterable[BillRow]) -> str:
     """The bill as a table with commas, one row per line under a line of names.
 
     >>> bill_csv([BillRow("buy", "ball joint, ball d 8", 2, ("A", "B"))]).splitlines()[1]
-    'buy,2,"ball joint, ball d 8",A B,'
+    'buy,2,"ball joint, ball d 8",A B,,'
     """
     stream = io.StringIO()
     table = csv.writer(stream, lineterminator="\n")
-    table.writerow(("kind", "count", "what, sizes in mm", "links or joints", "volume of one in mm^3"))
+    table.writerow(
+        ("kind", "count", "what, sizes in mm", "links or joints", "volume of one in mm^3", "mass of one in kg")
+    )
     for row in rows:
         volume = "" if row.volume is None else f"{row.volume:.1f}"
-        table.writerow((row.kind, row.count, row.what, " ".join(row.names), volume))
+        mass = "" if row.mass is None else f"{row.mass:.6g}"
+        table.writerow((row.kind, row.count, row.what, " ".join(row.names), volume, mass))
     return stream.getvalue()
 
 
 @dataclass(frozen=True, eq=False)
 class _Form:
-    """What is equal for links that are alike or mirrored: roles of the parts; their sizes and distances; the volume."""
+    """What is equal for links that are alike or mirrored: roles of the parts; their sizes and distances; the volume.
+
+    So is the mass in kg that the file says, None where it says none.
+    """
 
     roles: tuple[str, ...]
     sizes: FloatArray
     volume: float
+    mass: float | None
 
 
-def _form(body: LinkBody) -> _Form:
+def _form(body: LinkBody, mass: float | None) -> _Form:
     listed = sorted((f"{item.role} {item.shape.kind}", _sizes(item.shape)) for item in body.fused)
     middles = np.array([corners(item.shape).mean(axis=0) for item in body.fused])
     gaps = np.sort(np.linalg.norm(middles[:, None] - middles, axis=2).ravel())
     sizes = [value for _, own in listed for value in own]
     bores = np.sort([_sizes(item)[0] for item in body.bores])  # their lengths beyond the link do not matter
     volume = fused(body).volume()
-    return _Form(tuple(role for role, _ in listed), np.array([*sizes, *gaps, *bores, np.cbrt(volume)]), volume)
+    return _Form(tuple(role for role, _ in listed), np.array([*sizes, *gaps, *bores, np.cbrt(volume)]), volume, mass)
 
 
 def _same(first: _Form, second: _Form) -> bool:
     """Whether two forms are equal, but for rounding."""
     if first.roles != second.roles or len(first.sizes) != len(second.sizes):
+        return False
+    if (first.mass is None) != (second.mass is None) or not np.isclose(first.mass or 0.0, second.mass or 0.0):
         return False
     return bool(np.allclose(first.sizes, second.sizes, rtol=1e-6, atol=1e-6 * float(first.sizes.max())))
 

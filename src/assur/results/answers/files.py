@@ -110,6 +110,7 @@ class BillRow:
         count: how many.
         names: the links, or the joints that it is for.
         volume: of one, in mm^3; None for what is bought.
+        mass: of one, in kg, as the file says it; None where it does not.
     """
 
     kind: Literal["make", "buy"]
@@ -117,6 +118,7 @@ class BillRow:
     count: int
     names: tuple[str, ...]
     volume: float | None = None
+    mass: float | None = None
 
 
 @dataclass(frozen=True)
