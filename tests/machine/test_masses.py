@@ -88,6 +88,26 @@ def test_a_mass_beyond_reason_is_noted():
     )
 
 
+def test_numbers_in_other_units_are_noted():
+    """Grams for a cubic centimetre, gigapascals, millimetres, kilogram millimetres squared."""
+    record = load_record("fivebar")
+    steel, bar = record.machine.materials["steel"], record.machine.profiles["bar20"]
+    machine = replace(
+        record.machine,
+        materials={"steel": replace(steel, density=7.85, elasticity=210.0)},
+        profiles={"bar20": replace(bar, sizes=(20.0,))},
+        payload=LinkData(mass=1.0, inertia=np.diag([200.0, 200.0, 200.0])),
+    )
+    said = " ".join(masses(replace(record, machine=machine)).notes)
+    for words in ("7.85 kg/m3", "E = 210 Pa", "20 m wide", "the payload has the inertia 200 kg m2"):
+        assert words in said
+
+
+@pytest.mark.parametrize("name", each())
+def test_nothing_of_built_in_mechanisms_looks_like_another_unit(name):
+    assert masses(load_record(name)).notes == ()
+
+
 @pytest.mark.parametrize("name", each())
 def test_built_in_mechanisms_know_what_they_weigh_and_what_drives_them(name):
     record = load_record(name)

@@ -22,9 +22,9 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.balance import Asked, Balance, balanced
 from assur.machine.inertia import rotors
 from assur.machine.loop_equations import angle_numbers, angles_given, angular_motion
-from assur.machine.masses import RigidBody
 from assur.machine.pivots import graph_pivots, weighs
 from assur.machine.recorded_dynamics import InverseDynamics
+from assur.machine.rigid_body import RigidBody
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
 from assur.numerics import rotations

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from assur.machine.beams import consistent_load
 from assur.machine.forces import ActuatorForces
 from assur.machine.inertia import rotors
-from assur.machine.masses import RigidBody, bar_weights, masses
+from assur.machine.masses import bar_weights, masses
 from assur.machine.reactions import OPEN, RANK, about_origin, child_points, joint_wrenches
+from assur.machine.rigid_body import RigidBody
 from assur.machine.screws import joint_screws, paths, screw_rates
 from assur.machine.strains import Strains, strains
 from assur.machine.structure import structure

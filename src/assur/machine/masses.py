@@ -12,37 +12,12 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.validation.check import METRES
 from assur.machine.bars import link_bars
+from assur.machine.rigid_body import RigidBody, spread
+from assur.machine.slips import slips
 from assur.model.machine_data import LinkData, Profile
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
-HEAVY = 1e5
-"""A mass in kg above which one may have been meant in another unit."""
-
-
-@dataclass(frozen=True, eq=False)
-class RigidBody:
-    """A mass in kg, its centre (3,) in the link's frame in m, its inertia (3, 3) about it in the link's axes in kg m2.
-
-    `source` says where these come from.
-    """
-
-    mass: float
-    centre: FloatArray
-    inertia: FloatArray
-    source: str
-
-    def with_body(self, other: RigidBody) -> RigidBody:
-        """Both as one."""
-        mass = self.mass + other.mass
-        if mass == 0.0:
-            return self
-        centre = (self.mass * self.centre + other.mass * other.centre) / mass
-        inertia = self._about(centre) + other._about(centre)
-        return RigidBody(mass, centre, inertia, f"{self.source}; {other.source}")
-
-    def _about(self, point: FloatArray) -> FloatArray:
-        return self.inertia + self.mass * _spread(self.centre - point)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,11 +72,8 @@ def masses(record: MechanismRecord) -> Masses:
         centre = record.platform.point if data.payload.centre is None else data.payload.centre
         payload = _given(data.payload, centre * metre, "platform's point")
     carried = {**bodies, **({"the payload": payload} if payload else {})}
-    notes = tuple(
-        f"{name} weighs {body.mass:g} kg; masses are in kg" for name, body in carried.items() if body.mass >= HEAVY
-    )
     gravity = data.gravity.direction * data.gravity.value
-    return Masses(bodies, payload, gravity, tuple(lacking), notes)
+    return Masses(bodies, payload, gravity, tuple(lacking), tuple(slips(record, carried)))
 
 
 def all_masses(record: MechanismRecord) -> Masses:
@@ -158,9 +130,9 @@ def _of_bars(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
         axis = along / np.sqrt(size) if size else np.zeros(3)
         mass += own
         moment += own * middle
-        second += own * (_spread(along) / 12.0 + polar * np.outer(axis, axis) + _spread(middle))
+        second += own * (spread(along) / 12.0 + polar * np.outer(axis, axis) + spread(middle))
     centre = moment / mass
-    return RigidBody(mass, centre, second - mass * _spread(centre), source)
+    return RigidBody(mass, centre, second - mass * spread(centre), source)
 
 
 def bar_weights(record: MechanismRecord, link: str) -> tuple[float, float] | None:
@@ -202,8 +174,3 @@ def _weight(
             hint=f"say it in [materials]: {data.material} = {{ density = 7850 }}, in kg/m3",
         )
     return density * profile.area, f"bars of {profile.name}, {data.material}"
-
-
-def _spread(vector: FloatArray) -> FloatArray:
-    """The tensor (3, 3) of a point of 1 kg at a vector (3,)."""
-    return float(vector @ vector) * np.eye(3) - np.outer(vector, vector)

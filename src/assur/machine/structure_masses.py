@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.machine.masses import Masses, RigidBody, bar_weights
+from assur.machine.masses import Masses, bar_weights
+from assur.machine.rigid_body import RigidBody
 from assur.machine.strains import Strains
 from assur.machine.structure import ElasticStructure
 
