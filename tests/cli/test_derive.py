@@ -66,7 +66,7 @@ def test_the_data_says_reasons_unknowns_choices_and_what_is_assumed(assur_cli):
     assert last["conditions"] == ["N3 != 0"]
 
 
-@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize("problem", ["direct", pytest.param("inverse", marks=pytest.mark.deep)])
 def test_what_is_printed_of_a_draft_defines_each_name_before_it_is_used(assur_cli, tmp_path, problem):
     file = tmp_path / "my.toml"
     chains = ["R[y] R[y] P[y] R[y]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"]

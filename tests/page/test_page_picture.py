@@ -107,7 +107,8 @@ def red_round(here, joint):
 @pytest.mark.parametrize(
     ("name", "call", "by"),
     [
-        ("zeng2019", "toPose", (0.0, 0.0, 200.0)),  # out of reach: the loop of a joint without a letter
+        # out of reach: the loop of a joint without a letter
+        pytest.param("zeng2019", "toPose", (0.0, 0.0, 200.0), marks=pytest.mark.deep),
         ("planar_3rrr", "toInputs", (1.2, 0.0, -1.2)),  # a parallel singularity, and what is beyond it
         pytest.param("fivebar", "toPose", (0.0, 300.0), marks=pytest.mark.deep),
     ],
@@ -186,6 +187,7 @@ def test_a_link_to_a_view_of_everything_goes_on_following(opened):
     assert inside(here, joints(here)).all()
 
 
+@pytest.mark.deep
 def test_ghosts_that_lie_in_one_plane_do_not_flicker(opened):
     """Where two surfaces fight for a pixel, the least turn of the view gives it to the other one."""
     here, pictures = opened("planar_3rpr", drawn=True), []

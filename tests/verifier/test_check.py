@@ -213,7 +213,9 @@ def test_claims_of_another_kind_are_refused(forged):
             verify(forged("paper", lambda document, kind=kind: document.update(kind=kind)))
 
 
-@pytest.mark.parametrize("case", ["paper", "held angle", "angular strokes", "half angles"])
+@pytest.mark.parametrize(
+    "case", ["paper", "held angle", "angular strokes", pytest.param("half angles", marks=pytest.mark.deep)]
+)
 def test_formulas_that_change_a_leaf_are_refused(case, made_of, forged):
     """Operations and dimensions changed: refused, or else the formulas are not those of the mechanism."""
     operations = made_of(case).program["operations"]
