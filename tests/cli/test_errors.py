@@ -49,9 +49,12 @@ def test_tolerances_and_clearances_are_summed(assur_cli, toleranced):
     assert list(data["worst_case"]) == ["x", "y", "z", "rx", "ry", "rz"]
     assert list(data["worst_case"].values()) == pytest.approx(rows.T @ [0.05, 0.02])
     assert np.shape(data["covariance"]) == (6, 6)
+    low, high = data["proved"]["y"]
+    assert 0.5 * (high - low) == pytest.approx(data["worst_case"]["y"], rel=1e-2)
+    assert low < 224 < high
     assert len(data["clearances"]["B1"]) == 6
     out = assur_cli("errors", toleranced, "--pose", "0", "224").out
-    for word in ("worst case", "root sum square", "clearance of B1", "no bound is proved"):
+    for word in ("worst case", "root sum square", "clearance of B1", "certainly, for all dimensions"):
         assert word in out
 
 

@@ -42,7 +42,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: PoseErrors
     summed = held and bool(record.machine.tolerances)
     return ErrorsAnswer(
         **mechanism_header(record),
-        pose=tuple(pose_at_border(record, pose).tolist()),
+        pose=tuple(pose.tolist()),
         mode=mode,
         status=solved.status.name,
         input_names=tuple(item.name for item in record.drives),
@@ -57,16 +57,18 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: PoseErrors
         worst_case=_named(solved.worst_case) if summed else None,
         root_sum_square=_named(solved.root_sum_square) if summed else None,
         covariance=plain(solved.covariance) if summed else None,
+        proved=solved.proved.bounds or None if summed else None,
         clearances={joint: tuple(row.tolist()) for joint, row in solved.clearances.items()},
         failures=missing(record, record.inverse(pose, mode).failures) if solved.status == Status.unreachable else (),
         notes=tuple(_notes(record, solved)),
         units={
-            "pose": ", ".join(record.unit if name in LENGTHS else record.angle for name in record.platform.pose),
+            "pose": ", ".join(record.unit if name in LENGTHS else "rad" for name in record.platform.pose),
             "sensitivity": f"x, y, z in {record.unit}, rx, ry, rz in rad, per unit of the dimension or input",
             "self_stress": "force 1, moment m",
             "worst_case": f"{record.unit}, rad",
             "root_sum_square": f"{record.unit}, rad",
             "covariance": f"{record.unit}2, {record.unit} rad, rad2",
+            "proved": f"{record.unit}, rad",
             "clearances": f"{record.unit}, rad",
         },
     )
@@ -84,6 +86,8 @@ def _notes(record: Mechanism, solved: PoseErrors) -> Iterable[str]:
     open_names = [name for name, row in solved.sensitivity.items() if np.isnan(row[0])]
     if open_names and any(name in record.machine.tolerances for name in open_names):
         yield "a tolerance is of what does not assemble alone: no sums; give profiles to links, or name another copy"
+    if record.machine.tolerances and solved.proved.resists:
+        yield f"no bounds are proved: {solved.proved.resists}"
     if not record.machine.tolerances:
         yield "the file states no tolerances: sensitivities alone"
 
@@ -125,7 +129,21 @@ def _sums(answer: ErrorsAnswer) -> Iterable[RenderableType]:
     if rows:
         yield ""
         yield table(("with the file's tolerances", *_columns(answer)), rows, left=("with the file's tolerances",))
-        yield "first order: no bound is proved"
+        yield "of first order: no bounds"
+    if answer.proved and answer.worst_case:
+        yield ""
+        proofs = [
+            (name, f"{low:.9g}", f"{high:.9g}", _times(0.5 * (high - low), answer.worst_case.get(name)))
+            for name, (low, high) in answer.proved.items()
+        ]
+        columns = ("proved", "at least", "at most", "half of it over the worst case")
+        yield table(columns, proofs, left=("proved",))
+        yield f"certainly, for all dimensions that assemble: lengths in {answer.unit}, angles in rad"
+
+
+def _times(half: float, first: float | None) -> str:
+    """How much wider bounds are than what the first order says, where it says anything."""
+    return f"{half / first:.3f}" if first and half / first < 1e3 else "-"
 
 
 def _columns(answer: ErrorsAnswer) -> tuple[str, ...]:

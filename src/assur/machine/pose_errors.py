@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +23,7 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.elastic_errors import elastic_errors
 from assur.machine.error_closure import FITS, ErrorClosure, error_closure
 from assur.machine.geometry_errors import geometry_errors
+from assur.machine.proved_poses import ProvedPoses, proved_poses
 from assur.machine.reactions import child_points
 from assur.machine.skeletons import elastic
 from assur.model.mechanism import MechanismRecord
@@ -86,6 +88,12 @@ class PoseErrors:
         tolerances = self.record.machine.tolerances
         own = [self.sensitivity[name] * item.sigma / self._unit(name) for name, item in tolerances.items()]
         return np.asarray(np.sum([np.outer(part, part) for part in own], axis=0)) if own else np.full((6, 6), np.nan)
+
+    @cached_property
+    def proved(self) -> ProvedPoses:
+        """Bounds of the pose with every tolerance of the file, proved: see `assur.machine.proved_poses`."""
+        off = {name: item.bound for name, item in self.record.machine.tolerances.items() if item.bound > 0.0}
+        return proved_poses(self.record, self.values, off) if off else ProvedPoses({}, "no tolerances are stated")
 
     def __str__(self) -> str:
         rows = [

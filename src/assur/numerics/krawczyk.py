@@ -72,9 +72,9 @@ def _moved(middle: FloatArray, offset: Interval, values: Interval, slopes: Inter
         numbers += [as_interval(inverse[:, i, j]) for i in range(size) for j in range(size)]
         components = _operator(size)(numbers, [], "compiled")
         return stacked([components[f"K{i}"] for i in range(size)], count)
-    rest = np.eye(size) - _total(Interval.of(inverse[..., None]) * _rows(slopes[:, None]))
-    moved = _total(Interval.of(inverse) * values[:, None, :], axis=-1)
-    spread = _total(rest * _rows(offset)[:, None, :], axis=-1)
+    rest = np.eye(size) - total(Interval.of(inverse[..., None]) * _rows(slopes[:, None]))
+    moved = total(Interval.of(inverse) * values[:, None, :], axis=-1)
+    spread = total(rest * _rows(offset)[:, None, :], axis=-1)
     return Interval.of(middle) - moved + spread
 
 
@@ -154,7 +154,7 @@ def _rows(number: Interval) -> Interval:
     return broadcast(number, number.shape)
 
 
-def _total(terms: Interval, axis: int = -2) -> Interval:
+def total(terms: Interval, axis: int = -2) -> Interval:
     """Sum along an axis."""
     terms = _rows(terms)
     low, high = np.moveaxis(terms.low, axis, 0), np.moveaxis(terms.high, axis, 0)

@@ -19,8 +19,9 @@ class ErrorsAnswer(AnswerOfMechanism):
     `leg1.rod.L`, and for each input, per unit of it (`per`); null where it alone does not assemble. `compatible` says
     so, `self_stress` which wrenches of joints bear it (force and moment in m at the child's point, the largest force
     1), and `elastic` names those whose numbers are where links that bend settle. `worst_case`, `root_sum_square` and
-    `covariance` are those of the file's tolerances, null without; `clearances` the largest errors that a joint's
-    clearance allows, as far as the loops close.
+    `covariance` are those of the file's tolerances, null without. `proved` are bounds between which the coordinates of
+    the pose certainly lie with these, for all dimensions that assemble; null where there is no proof. `clearances` are
+    the largest errors that a joint's clearance allows, as far as the loops close.
     """
 
     pose: Numbers
@@ -35,6 +36,7 @@ class ErrorsAnswer(AnswerOfMechanism):
     worst_case: Mapping[str, float | None] | None
     root_sum_square: Mapping[str, float | None] | None
     covariance: tuple[Row, ...] | None
+    proved: Mapping[str, tuple[float, float]] | None
     clearances: Mapping[str, Numbers]
     failures: tuple[NegativeQuantity, ...]
     notes: tuple[str, ...]
