@@ -44,6 +44,7 @@ UNLIKE = {
     "rails that are oblique": ["P[1,0,1] P(4S)[y]", "P[y] P(4S)[x]", "P[z] P(4S)[y]"],
     "an Orthoglide": ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
     "hinges along short links": ["P[y] R[z] P(4R)[x] R[z]", "C[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
+    "four limbs and a polynomial": 4 * ["R[z] R[z] R[z] P[z]"],
     "two drives in one limb": ["R[z] R[z] R[z]", "R[z] R[z] P[x]"],
     "a limb with a loop in it across three directions": [
         "R[x] R[x] C[x]", "{P[y] R[z] R[z] | P[y] R[z] R[z]} R[y] R[y]",

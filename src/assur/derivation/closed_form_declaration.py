@@ -87,8 +87,8 @@ class ClosedFormDeclaration(ClosedFormParts):
         names: dict[str, tuple[str, ...]] = {}
         for problem, kind in kinds.items():
             if not written_quantities(record, problem):
-                used = {name for (of, _), (name, _) in self.formulas.signs.items() if of == problem}
-                names[kind] = tuple(name for name in sign_meanings(record, problem) if name in used)
+                meanings = sign_meanings(record, problem)
+                names[kind] = tuple(name for name in meanings if name in self.formulas.sign_values)
         return {kind: own for kind, own in names.items() if own}
 
     def _margin_list(self, problem: Problem) -> Iterator[str]:

@@ -105,7 +105,8 @@ class _Matching:
         for problem, solution in self.solutions.items():
             left = self._roots(problem, solution, matched, products)
             if left and problem == "direct" and solution.eliminant is not None:
-                left = {k: name for k, name in left.items() if name in sign_names(self.record, problem)}
+                if not solution.roots:  # whose names the joint graph has, where the file has none
+                    left = {k: name for k, name in left.items() if name in sign_names(self.record, problem)}
                 factors = self._of_factors(left)
                 left = {k: name for k, name in left.items() if name not in factors}
             if left:
