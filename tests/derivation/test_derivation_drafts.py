@@ -45,6 +45,7 @@ UNLIKE = {
     "an Orthoglide": ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
     "hinges along short links": ["P[y] R[z] P(4R)[x] R[z]", "C[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "four limbs and a polynomial": 4 * ["R[z] R[z] R[z] P[z]"],
+    "parallelograms in one plane": 3 * ["R[z] P(4R)[z] R[z]"],
     "two drives in one limb": ["R[z] R[z] R[z]", "R[z] R[z] P[x]"],
     "a limb with a loop in it across three directions": [
         "R[x] R[x] C[x]", "{P[y] R[z] R[z] | P[y] R[z] R[z]} R[y] R[y]",

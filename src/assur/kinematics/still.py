@@ -16,6 +16,7 @@ from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
+from assur.kinematics.loops.parallelograms import some_crossed
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.turns import joint_units, periodic
 from assur.model.mechanism import MechanismRecord
@@ -33,6 +34,8 @@ characteristic lengths. Four digits lie between, so that neither rounding nor a 
 def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
     """What stands still about home and is another at joint values (N, n): its name; "" where nothing is.
 
+    What a parallelogram joins stands as in one: where it crosses over, all may turn in a plane.
+
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> otherwise(record, home_values(record)[None])
@@ -40,7 +43,11 @@ def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
     """
     names, still, home = _still(record)
     apart = (np.abs(_places(record, joints)[1] - home) > OTHER) & still
-    return [names[int(np.argmax(row))] if np.any(row) else "" for row in apart]
+    crossed = some_crossed(record, joints)
+    return [
+        names[int(np.argmax(row))] if np.any(row) else "how a parallelogram stands" if over else ""
+        for row, over in zip(apart, crossed, strict=True)
+    ]
 
 
 @lru_cache(maxsize=64)

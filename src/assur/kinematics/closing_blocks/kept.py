@@ -82,8 +82,10 @@ def _name(record: MechanismRecord, problem: Problem) -> str:
 
 @lru_cache(maxsize=1)
 def _code() -> str:
-    """A digest of the code that finds them: another way to choose signs, other names."""
-    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    """A digest of the code that finds them: another way to choose signs, or assemblies, other names."""
+    folder = Path(__file__).parent
+    others = [folder.parent / f"{name}.py" for name in ("related", "starts", "still")]
+    texts = (path.read_bytes() for path in [*sorted(folder.glob("*.py")), *others])
     return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 

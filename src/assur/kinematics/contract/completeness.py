@@ -19,6 +19,7 @@ from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_error, pose_of
 from assur.kinematics.rates.motions import InstantaneousMotion
 from assur.kinematics.status import closed_form_of
+from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -121,6 +122,8 @@ def _left_out(solutions: Solutions, joints: FloatArray) -> BoolArray:
     record = solutions.record
     if closed_form_of(record).complete_for == "joint_graph" or not len(joints):
         return np.zeros(len(joints), dtype=bool)
+    if not len(solutions):  # nothing says what the model is without but home
+        return np.array([bool(other) for other in otherwise(record, joints)])
     index = list(record.input_indices)
     sides = np.sign(solutions.joints[0, index])
     out = np.any((np.sign(joints[:, index]) != sides) & _one_sided(solutions), axis=-1)
