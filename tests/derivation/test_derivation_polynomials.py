@@ -26,6 +26,9 @@ DRAFTS = {
     "rrr": repeated("R[z] R[z] R[z]", 3),
     "mixed": parse_chains(["R[z] R[z] R[z]", "R[z] P[x] R[z]", "P[x] R[z] R[z]"]),
     "prc": repeated("P[z] R[y] C[y]", 3),
+    "oblique": parse_chains(
+        ["R[y] R[y] C[y]", "R[0.6,0.8,0] R[0.6,0.8,0] C[0.6,0.8,0]", "R[0,0.6,0.8] R[0,0.6,0.8] C[0,0.6,0.8]"]
+    ),
 }
 
 

@@ -52,7 +52,8 @@ class ExactVectors:
 
     def _plain(self, part: sympy.Expr) -> sympy.Expr:
         """A formula that is 0, 1 or -1 everywhere is that number."""
-        return next((number for number in (0, 1, -1) if self.witness.is_zero(part - number)), sympy.expand(part))
+        number = next((number for number in (0, 1, -1) if self.witness.is_zero(part - number)), None)
+        return _on_circles(sympy.expand(part)) if number is None else number
 
     def tidy(self, matrix: Matrix) -> Matrix:
         """The same of a rotation."""
@@ -64,8 +65,17 @@ class ExactVectors:
 def _unit(vector: Vector) -> Vector:
     """A vector over its length, worked out once: to simplify is what takes the time."""
     square = sympy.expand(dot(vector, vector))
-    for sine in square.atoms(sympy.sin):
-        square = sympy.expand(square.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
-    size = sympy.sqrt(square)
+    size = sympy.sqrt(_on_circles(square))
     x, y, z = (part if part == 0 else sympy.simplify(part / size) for part in vector)
     return x, y, z
+
+
+def _on_circles(formula: sympy.Expr) -> sympy.Expr:
+    """A polynomial with the squares of sines of angles among the dimensions written by their cosines."""
+    for sine in sorted(formula.atoms(sympy.sin), key=str):
+        square = 1 - sympy.cos(sine.args[0]) ** 2
+        formula = sympy.expand(formula.replace(
+            lambda part, own=sine: part.is_Pow and part.base == own and part.exp.is_Integer and part.exp > 1,
+            lambda part, own=sine, two=square: two ** (int(part.exp) // 2) * own ** (int(part.exp) % 2),
+        ))  # fmt: skip
+    return formula
