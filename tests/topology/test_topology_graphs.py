@@ -82,3 +82,31 @@ def test_a_graph_without_base_or_platform():
 def test_graphs_are_not_drafted():
     with pytest.raises(UsageError, match="chain 1 leads from base to coupler"):
         drafted(parse_chains(STEPHENSON), Path("my.toml"))
+
+
+@pytest.mark.parametrize(
+    ("graph", "numbers"),
+    [
+        # a dyad drives the bar
+        (["P(4R, rod)[z]", "R[z] R[z] R[z] <rod>"], (1, 1, 0, (3, 3))),
+        # the platform is hinged to one link and held to the bar
+        (["P(4R, rod)[z] R[z]", "<rod> R[z] R[z] <platform>"], (1, 1, 1, (3, 3))),
+        # nothing leads to it: it is a generalised joint as ever
+        (["P(4R, rod)[z]", "R[z] R[z] R[z]"], (1, 1, 0, (3,))),
+    ],
+)
+def test_the_bar_of_a_parallelogram_by_name(graph, numbers):
+    found = topology(graph)
+    assert (found.dof, found.poc.dim, found.poc.r, found.xi) == numbers
+    assert plain_text(parse_chains(graph[:1])[0]) == graph[0]
+
+
+def test_a_pantograph_has_two_parallelograms_on_one_bar():
+    """A parallelogram on the bar of another, and a dyad: two freedoms and two, less three of a plane loop."""
+    found = topology(["P(4R, rod)[z] <coupler>", "<rod> P(4R)[z] <platform>", "<coupler> R[z] R[z] <platform>"])
+    assert (found.known.route, found.dof) == ("twists", 1)
+
+
+def test_only_a_parallelogram_of_four_hinges_has_a_bar():
+    with pytest.raises(NotationError):
+        parse_chains(["P(4S, rod)[z]"])

@@ -77,13 +77,15 @@ class Parallelogram:
     """Four hinges and two equal rods between two links, counted as one generalised joint.
 
     `axis` is the direction of the hinges of a P(4R). Of a P(4S), P(4U) or P(2US) it is the direction of the
-    short links, about which the rods swing sideways; it stays fixed in both links that the rods join.
+    short links, about which the rods swing sideways; it stays fixed in both links that the rods join. `bar` is the
+    name of the first rod of a P(4R), where other chains lead to it.
     """
 
     kind: ParallelogramKind
     axis: Vector
     name: str = ""
     general: bool = False
+    bar: str = ""
 
     def __post_init__(self) -> None:
         if self.kind not in FREEDOMS_OF_PARALLELOGRAM:

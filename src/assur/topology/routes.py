@@ -59,7 +59,11 @@ def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str
         at_end: of one limb alone, whether O' is where its own entry has it.
     """
     if chains is None:
-        return Rules((), (), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
+        return Rules(
+            (),
+            (),
+            Refusal("the joint graph has no limbs: it does not reduce to chains, inner loops and parallelograms"),
+        )
     free = tuple(_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1))
     platform = _platform(free, "translation" if held else "free", at, at_end=at_end)
     if still and not held:

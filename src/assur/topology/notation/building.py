@@ -47,7 +47,7 @@ def _joint(
     directions = tuple(axes[slot] for slot in drawn.slots)
     general = bool(directions) and not any(sketch.slots[slot].placed or sketch.slots[slot].tied for slot in drawn.slots)
     if joint.kind:
-        return Parallelogram(joint.kind, directions[0], names.of_joint("Pa", joint.name), general)
+        return Parallelogram(joint.kind, directions[0], names.of_joint("Pa", joint.name), general, joint.bar)
     name = names.of_joint(joint.letter, joint.name)
     point, through = points.get(joint.at, ""), joint.points[1]
     return ChainJoint(BY_LETTER[joint.letter], directions, point, name, general, through)

@@ -18,6 +18,7 @@ _LETTER = re.compile(f"[{''.join(BY_LETTER)}]")
 _NUMBER = re.compile(r"_?(\d+[a-w]?'*)|_\{(?![xyz]\})([A-Za-z0-9']+)\}|_([a-w])", re.ASCII)
 _SUBSCRIPT = re.compile(r"_(?:(\d+[a-w]?'*)|\{(?![xyz]\})([A-Za-z0-9']+)\}|([a-w]))", re.ASCII)
 _ROUND = re.compile(r"\^\s*\{\s*\(?([^(){}]*)\)?\s*\}|\^?\s*\(([^()]*)\)")
+_BAR = re.compile(r"4R\s*,\s*([a-z][a-z0-9_-]*)", re.ASCII)
 _TAG = re.compile(r"(?:(\d*)P)?(?:(\d*)R)?", re.ASCII)
 _SQUARE = re.compile(r"\[([^\[\]]*)\]")
 _LABEL = re.compile(r"@\s*([A-Z][a-z0-9]*'*)", re.ASCII)
@@ -85,6 +86,8 @@ def _with_round(cursor: Cursor, joint: WrittenJoint, content: str, start: int) -
         raise cursor.error(start, "a second kind or tag", "one for each joint")
     if joint.letter == "P" and content in _KINDS:
         return replace(joint, kind=_KINDS[content])
+    if joint.letter == "P" and (bar := _BAR.fullmatch(content)):
+        return replace(joint, kind="4R", bar=bar.group(1))
     match = _TAG.fullmatch(content)
     if not content or match is None:
         raise cursor.error(start, f"'({content})'", _round_expected(joint), "directions stand in square brackets: R[x]")

@@ -30,7 +30,8 @@ def _series(elements: tuple[Element, ...]) -> str:
 
 def _element(element: Element) -> str:
     if isinstance(element, Parallelogram):
-        return f"P({element.kind}){_brackets((element.axis,), element.general)}"
+        kind = f"{element.kind}, {element.bar}" if element.bar else element.kind
+        return f"P({kind}){_brackets((element.axis,), element.general)}"
     if isinstance(element, ChainJoint):
         one = element.type.axes == 1
         label = _labels(element.points_on(0) if one else (element.point,) if element.point else ())

@@ -34,7 +34,7 @@ class Tag:
 
 @dataclass(frozen=True)
 class WrittenJoint:
-    """A joint, or a parallelogram if it has a `kind`; `name` is empty and `labels` are none if not written."""
+    """A joint, or a parallelogram if it has a `kind`; `name` and `bar` are empty and `labels` none if not written."""
 
     letter: str
     at: int
@@ -43,6 +43,7 @@ class WrittenJoint:
     tag: Tag | None = None
     directions: tuple[WrittenDirection, ...] = ()
     labels: tuple[str, ...] = ()
+    bar: str = ""
 
     @property
     def points(self) -> tuple[str, tuple[tuple[str, ...], ...]]:

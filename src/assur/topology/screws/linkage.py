@@ -59,6 +59,7 @@ class Linkage:
         groups: generalised joints by name.
         inputs: actuated components, (joint, index of the component) each, in order.
         length: a length of the size of the linkage, to measure translations with.
+        parted: parallelograms that are no generalised joint, because other joints stand on a bar of theirs.
 
     Errors:
         UnknownNameError: an input or a joint of a group that is not among the joints.
@@ -71,6 +72,7 @@ class Linkage:
     groups: Mapping[str, Group] = field(default_factory=dict)
     inputs: tuple[tuple[str, int], ...] = ()
     length: float = 1.0
+    parted: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         inside = [name for group in self.groups.values() for name in group.joints]

@@ -42,7 +42,8 @@ def place(
 
     Joints stand in a box of size 2 at random; the same seed gives the same linkage. Joints keep their names if these
     are unique, else they are called by limb and place in it, as "R1.2" (of one chain alone "R2"). The joints of a
-    parallelogram Pa are Pa.a, Pa.b, Pa.c, Pa.d around it, from one end of the first rod to that of the second.
+    parallelogram Pa are Pa.a, Pa.b, Pa.c, Pa.d around it, from one end of the first rod to that of the second. One to
+    whose bar another chain leads is no generalised joint: its joints count each by itself.
 
     O' of a chain alone is fixed in its end link, on its last R axis or joint centre at home (a general point where
     that is an inner loop's output link); that of several limbs is the labelled point of the platform in which all of
@@ -68,11 +69,14 @@ def place(
         raise UsageError("there is no chain to place; at least one is needed")
     rng, names = np.random.default_rng(seed), joint_names(chains)
     building = _Building(rng, iter(names), len(chains) == 1, labels=tied_points(chains, names, rng))
+    building.ends = frozenset(link for chain in chains for link in (chain.start, chain.end))
     tips = [building.limb(number, chain) for number, chain in enumerate(chains, 1)]
     somewhere = building.somewhere()
     point = tips[0] if len(chains) == 1 else building.labels.get(common_end(chains) if at is None else at)
     inputs = tuple(_input(name, building) for name in actuated or ())
-    return Linkage(building.joints, BASE, PLATFORM, somewhere if point is None else point, building.groups, inputs)
+    point = somewhere if point is None else point
+    parted = tuple(building.parted)
+    return Linkage(building.joints, BASE, PLATFORM, point, building.groups, inputs, parted=parted)
 
 
 @dataclass
@@ -85,6 +89,8 @@ class _Building:
     joints: dict[str, LinkageJoint] = field(default_factory=dict)
     groups: dict[str, Group] = field(default_factory=dict)
     labels: dict[str, FloatArray] = field(default_factory=dict)
+    ends: frozenset[str] = frozenset()
+    parted: list[str] = field(default_factory=list)
     limb_number: int = 0
     links: int = 0
 
@@ -141,13 +147,16 @@ class _Building:
         short, rod, axes = self._sides(element)
         corner = self.somewhere()
         at_near, at_far = _AT_NEAR[element.kind], _AT_FAR[element.kind]
-        first, second = f"{name} rod 1", f"{name} rod 2"
+        first, second = element.bar or f"{name} rod 1", f"{name} rod 2"
         names = tuple(f"{name}.{letter}" for letter in "abcd")
         self._add(names[0], at_near, near, first, axes, corner)
         self._add(names[1], at_far, first, far, axes[::-1], corner + rod)
         self._add(names[2], at_far, second, far, axes[::-1], corner + rod + short)
         self._add(names[3], at_near, near, second, axes, corner + short)
-        self.groups[name] = Group(name, f"P({element.kind})", names, near, far)
+        if first in self.ends:
+            self.parted.append(name)
+        else:
+            self.groups[name] = Group(name, f"P({element.kind})", names, near, far)
         return None if element.kind == "4R" else corner + rod
 
     def _sides(self, element: Parallelogram) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -193,10 +202,9 @@ def _letter(joint: ChainJoint | Parallelogram) -> str:
 
 def _input(name: str, building: _Building) -> tuple[str, int]:
     """The actuated component of a joint; of a parallelogram the first hinge."""
-    if name in building.groups:
-        name = building.groups[name].joints[0]
+    name = name if name in building.joints else f"{name}.a"  # of a parallelogram
     if name not in building.joints:
-        raise UnknownNameError("joint", name, [*building.joints, *building.groups])
+        raise UnknownNameError("joint", name.removesuffix(".a"), [*building.joints, *building.groups])
     if building.joints[name].type.ball:
         raise UsageError(f"the spherical joint '{name}' cannot be actuated; any other joint can")
     return name, 0

@@ -17,13 +17,15 @@ from assur.topology.screws.shared_points import Line, line_of, meet, pivoted, si
 
 
 def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
-    """The limbs with their axes at home, parallelograms as one element; None where the graph has no limbs.
+    """The limbs with their axes at home, parallelograms as one element; None where the graph has no limbs of these.
 
     Neighbouring axes that meet (or coincide) get the label of their common point, also where slides stand between them:
     one along an axis leaves that axis where it is. Limbs whose first axes meet in one
     point of the base, or whose last axes meet in one point of the platform, have one label for it. O' has a label
     where a limb ends in it.
     """
+    if linkage.parted:
+        return None
     inside = {name for group in linkage.groups.values() for name in group.joints}
     paths = [
         LinkagePath(joint.parent, joint.child, (_joint(joint),))
