@@ -70,9 +70,9 @@ def improvements(
     return tuple(sorted(better, key=_rank))
 
 
-def _rank(item: Improvement) -> tuple[int, int, int]:
-    redundant = item.redundant_constraints.joint_graph
-    return -1 if item.coupling_degree is None else item.coupling_degree, redundant, -item.zeros
+def _rank(improvement: Improvement) -> tuple[int, int, int]:
+    redundant = improvement.redundant_constraints.joint_graph
+    return -1 if improvement.coupling_degree is None else improvement.coupling_degree, redundant, -improvement.zeros
 
 
 def _moved_alike(
@@ -96,9 +96,9 @@ def _same(first: Mark, second: Mark) -> bool:
     return len(rows[0]) == len(rows[1]) == int(np.linalg.matrix_rank(np.concatenate(rows), tol=1e-6))
 
 
-def zeros(found: Topology) -> int:
+def zeros(facts: Topology) -> int:
     """How many pairs of an output and an input have nothing to do with each other."""
-    return sum(not used for row in found.decoupling.depends for used in row) if found.decoupling else 0
+    return sum(not used for row in facts.decoupling.depends for used in row) if facts.decoupling else 0
 
 
 def _better(before: Topology, after: Topology) -> Iterator[str]:

@@ -83,7 +83,7 @@ def topology(
     derived = derive(asked, actuate=_actuators(actuate), mode=mode)
     met = operation_modes(asked) if modes else None
     better = improvements(asked, actuate=_actuators(actuate), mode=mode) if improve else None
-    also = topology_answer.Asked(path, met, better)
+    also = topology_answer.BesideFacts(path, met, better)
     return topology_answer.outcome(derived, also, latex=latex, ascii_only=ascii_)
 
 

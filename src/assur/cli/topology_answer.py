@@ -46,7 +46,7 @@ def shortened(text: str) -> str:
 
 
 @dataclass(frozen=True)
-class Asked:
+class BesideFacts:
     """What was asked for beside the facts: a drawing of the graph, operation modes, neighbours; None where not."""
 
     graph: Path | None = None
@@ -54,7 +54,7 @@ class Asked:
     improvements: tuple[Improvement, ...] | None = None
 
 
-def outcome(topology: Topology, also: Asked, *, latex: bool, ascii_only: bool) -> Outcome:
+def outcome(topology: Topology, also: BesideFacts, *, latex: bool, ascii_only: bool) -> Outcome:
     """The answer, with what else was asked for; the graph is written where a path is given."""
     data = answers(topology)
     if also.modes is not None:
@@ -84,7 +84,7 @@ def _draw(topology: Topology, path: Path) -> None:
     write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
 
 
-def _shown(topology: Topology, also: Asked, *, ascii_only: bool) -> Iterable[RenderableType]:
+def _shown(topology: Topology, also: BesideFacts, *, ascii_only: bool) -> Iterable[RenderableType]:
     say: Said = ascii_text if ascii_only else str
     yield heading(say(_title(topology)))
     yield from _characteristics(topology, say)
@@ -103,26 +103,26 @@ def _shown(topology: Topology, also: Asked, *, ascii_only: bool) -> Iterable[Ren
         yield f"written: {also.graph}"
 
 
-def _improvements(topology: Topology, found: tuple[Improvement, ...], say: Said) -> Iterator[RenderableType]:
-    if not found:
+def _improvements(topology: Topology, better: tuple[Improvement, ...], say: Said) -> Iterator[RenderableType]:
+    if not better:
         yield "no single change that was tried makes it better"
         return
     rows = [
         (say(item.change), str(item.coupling_degree), str(item.redundant_constraints.joint_graph), str(item.zeros))
-        for item in found[:LISTED]
+        for item in better[:LISTED]
     ]
     yield table(("change", say("κ"), "redundant", "zeros"), rows, left=("change",), wrap=("change",))
-    more = f"; {len(found) - LISTED} more in --json" if len(found) > LISTED else ""
+    more = f"; {len(better) - LISTED} more in --json" if len(better) > LISTED else ""
     own = (topology.coupling_degree, topology.redundant_constraints.joint_graph, zeros(topology))
     degree, redundant, unused = ("-" if number is None else str(number) for number in own)
     yield say(f"as it is: κ {degree}, redundant {redundant} of all joints, zeros {unused} of the decoupling{more}")
-    yield Verbatim(f"the first: assur topology {_written(found[0])}")
+    yield Verbatim(f"the first: assur topology {_written(better[0])}")
 
 
-def _written(item: Improvement) -> str:
+def _written(improvement: Improvement) -> str:
     """The options that ask for a neighbour."""
-    chains = " ".join(f'--chain "{text}"' for text in item.chains)
-    return f"{chains} --actuate {','.join(item.actuate)}"
+    chains = " ".join(f'--chain "{text}"' for text in improvement.chains)
+    return f"{chains} --actuate {','.join(improvement.actuate)}"
 
 
 def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:

@@ -204,13 +204,13 @@ class ClosedFormKernels(ClosedFormParts):
         return f"({text},)" if len(values) == 1 else f"({text})"
 
 
-def _needed(definitions: Sequence[Definition], wanted: set[sympy.Symbol]) -> list[Definition]:
-    """Definitions of what is wanted, and of what these need."""
+def _needed(definitions: Sequence[Definition], symbols: set[sympy.Symbol]) -> list[Definition]:
+    """Definitions of symbols, and of what these need."""
     kept: list[Definition] = []
     for own in reversed(definitions):
-        if own.symbol in wanted:
+        if own.symbol in symbols:
             kept.insert(0, own)
-            wanted = wanted | own.formula.free_symbols
+            symbols = symbols | own.formula.free_symbols
     return kept
 
 

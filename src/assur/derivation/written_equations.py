@@ -118,7 +118,7 @@ class WrittenEquations:
             f"{BREAK}- {text[1:]}" if text.startswith("-") else f"{BREAK}+ {text}" for text in texts[1:]
         )
 
-    def _named_equation(self, form: Form, steps: Steps) -> WrittenFormula:
+    def _named_equation(self, form: Form, steps: SetSteps) -> WrittenFormula:
         """An equation with its coefficients under their names."""
         named = {key: steps.names.get(sympy.factor_terms(own), own) for key, own in form.items() if key != ONE}
         known = -form.get(ONE, ZERO)
@@ -129,7 +129,7 @@ class WrittenEquations:
             left = rf"{self.printed.vector(normal)} \cdot {self.printed.vector(vectors.unknowns)}"
             yield WrittenFormula(left, (self.writer.text(share),))
 
-    def _of_vectors(self, vectors: RodVectors, steps: Steps) -> Iterator[WrittenFormula]:
+    def _of_vectors(self, vectors: RodVectors, steps: SetSteps) -> Iterator[WrittenFormula]:
         skipped = {*vectors.across}
         for own in steps.named:
             if own.symbol == vectors.across[0]:
@@ -168,7 +168,7 @@ class WrittenEquations:
         return f"As {listed(sums)}"
 
 
-class Steps:
+class SetSteps:
     """The definitions of a set by what they are for."""
 
     def __init__(self, part: SolvedSet) -> None:

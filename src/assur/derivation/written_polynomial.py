@@ -14,7 +14,7 @@ from assur.derivation.linear import value_of
 from assur.derivation.phrases import listed
 from assur.derivation.reduced_quadrics import product_symbol
 from assur.derivation.three_quadrics import three_quadrics
-from assur.derivation.written_equations import Steps, WrittenEquations
+from assur.derivation.written_equations import SetSteps, WrittenEquations
 from assur.derivation.written_parts import Block, WrittenFormula
 
 TIMES = r"\cdot"
@@ -23,7 +23,7 @@ TIMES = r"\cdot"
 class WrittenPolynomial(WrittenEquations):
     """Writes sets that end in one polynomial."""
 
-    def _polynomial(self, part: SolvedSet, eliminant: AngleEliminant, steps: Steps) -> Iterator[Block]:
+    def _polynomial(self, part: SolvedSet, eliminant: AngleEliminant, steps: SetSteps) -> Iterator[Block]:
         """A coupled set: all but one angle follow linearly, and the equation that is left over is its polynomial."""
         if isinstance(eliminant, PairEliminant) and eliminant.pair is not None:
             yield from self._pair(eliminant, eliminant.pair, steps)
@@ -61,7 +61,7 @@ class WrittenPolynomial(WrittenEquations):
                 "these three unknowns, and three quadrics are left, which meet in eight points."
             )
 
-    def _pair(self, eliminant: PairEliminant, pair: CirclePair, steps: Steps) -> Iterator[Block]:
+    def _pair(self, eliminant: PairEliminant, pair: CirclePair, steps: SetSteps) -> Iterator[Block]:
         """Three circles: with one taken as known, a line for each of the others, and what both say."""
         base, first, last = (self.printed.angle(own) for own in (eliminant.direction, *pair.circles))
         sides = listed([f"${self.printed.angle(own)}$" for own in self.solution.loops.directions if own.kind == "side"])

@@ -15,7 +15,7 @@ from assur.derivation.phrases import listed, words
 from assur.derivation.platform_rotation import posed_entries
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.rod_vectors import rod_vectors
-from assur.derivation.written_equations import Steps
+from assur.derivation.written_equations import SetSteps
 from assur.derivation.written_parts import Block, FlowNode, WrittenFormula, WrittenPart
 from assur.derivation.written_polynomial import WrittenPolynomial
 from assur.model.pose import ANGLES
@@ -59,7 +59,7 @@ class WrittenSolution(WrittenPolynomial):
         unknown = listed([f"${self.printed.angle(own)}$" for own in part.directions])
         yield f"The chain of {joints}. Unknown: {unknown}. The loop equations in which nothing else is unknown are"
         yield tuple(self._equation(form) for form in part.equations)
-        steps = Steps(part)
+        steps = SetSteps(part)
         if steps.known:
             yield "where"
             yield tuple(self.line(own.symbol, own.formula) for own in steps.known)
@@ -74,7 +74,7 @@ class WrittenSolution(WrittenPolynomial):
         names = [name for name, joint in record.joints.items() if {joint.parent, joint.child} & links]
         return list(dict.fromkeys(whole.get(name, name) for name in names))
 
-    def _elimination(self, part: SolvedSet, steps: Steps) -> Iterator[Block]:
+    def _elimination(self, part: SolvedSet, steps: SetSteps) -> Iterator[Block]:
         if part.eliminant is not None:
             yield from self._polynomial(part, part.eliminant, steps)
             return

@@ -40,17 +40,20 @@ def polynomial_solutions(
     return roots_of(record, kernel, given, only)
 
 
-def _of_model(record: MechanismRecord, found: JointGraphSolutions) -> JointGraphSolutions:
+def _of_model(record: MechanismRecord, solutions: JointGraphSolutions) -> JointGraphSolutions:
     """Without assemblies that a reduced closed form leaves out: at their poses it has others, and knows them all."""
-    if closed_form_of(record).complete_for == "joint_graph" or not len(found.assemblies):
-        return found
-    own = branches(record, "inverse", pose_of(record, found.assemblies))
-    where, unsure = places(record, found.assemblies), np.isin(own.overall_status, (Status.not_closed, Status.undecided))
+    if closed_form_of(record).complete_for == "joint_graph" or not len(solutions.assemblies):
+        return solutions
+    own = branches(record, "inverse", pose_of(record, solutions.assemblies))
+    where, unsure = (
+        places(record, solutions.assemblies),
+        np.isin(own.overall_status, (Status.not_closed, Status.undecided)),
+    )
     kept = np.array([
         open_question or bool(np.any(np.max(np.abs(places(record, joints[real]) - place), axis=1) < ANOTHER))
         for place, joints, real, open_question in zip(where, own.joints, own.exists, unsure, strict=True)
     ], dtype=bool)  # fmt: skip
     if np.all(kept):
-        return found
+        return solutions
     left_out = f"{np.sum(~kept)} beside the model of the closed form left out"
-    return replace(found, assemblies=found.assemblies[kept], reason=f"{found.reason}; {left_out}")
+    return replace(solutions, assemblies=solutions.assemblies[kept], reason=f"{solutions.reason}; {left_out}")
