@@ -53,19 +53,10 @@ def test_a_3_upu_translates_moves_in_a_plane_and_turns(upu):
         assert np.sum(np.linalg.svd(turned(record, value), compute_uv=False) > 1e-6) == axes
 
 
-def test_limbs_with_planar_joints_have_two_modes_and_each_is_there_twice():
+def test_limbs_with_planar_joints_have_two_modes_and_drives_that_do_not_fix_them_give_no_coupling_degree():
     chains = ["R[z] E[x] R[z]", "R[z] E[y] R[z]", "R[z] E[0.6,0.8,0] R[z]"]
-    assert [(mode.name, mode.dof) for mode in operation_modes(chains)] == [("3T1R", 4), ("2T1R", 3)]
-
-
-def test_a_parallelogram_folds_over_and_what_has_crossed_is_named():
-    modes = operation_modes(["P(4R)[z] R[z]", "R[z] R[z] R[z]"])
-    assert [(mode.crossed, mode.at_home) for mode in modes] == [((), True), (("Pa1",), False)]
-
-
-def test_drives_that_do_not_fix_a_mode_give_it_no_coupling_degree():
-    chains = ["R[z] E[x] R[z]", "R[z] E[y] R[z]", "R[z] E[0.6,0.8,0] R[z]"]
-    assert all(mode.coupling_degree is None for mode in operation_modes(chains))
+    modes = operation_modes(chains)
+    assert [(mode.name, mode.dof, mode.coupling_degree) for mode in modes] == [("3T1R", 4, None), ("2T1R", 3, None)]
 
 
 def test_where_two_modes_meet_the_loops_are_closed_and_singular(upu):
@@ -82,9 +73,10 @@ def test_where_two_modes_meet_the_loops_are_closed_and_singular(upu):
             assert mode.name in {back.mode for back in modes[other.mode].meets}
 
 
-def test_a_parallelogram_folds_over_where_it_is_flat():
+def test_a_parallelogram_folds_over_where_it_is_flat_and_what_has_crossed_is_named():
     built = place(parse_chains(["P(4R)[z] R[z]", "R[z] R[z] R[z]"]))
     (first, second) = met_modes([built] * 2, meeting=True)
+    assert [(mode.crossed, mode.at_home) for mode in (first, second)] == [((), True), (("Pa1",), False)]
     assert [[(other.mode, other.at_home) for other in mode.meets] for mode in (first, second)] == [
         [(second.name, False)],
         [(first.name, False)],
@@ -95,16 +87,16 @@ def test_a_parallelogram_folds_over_where_it_is_flat():
     assert np.linalg.matrix_rank(points[1:] - points[0], tol=1e-4) == 1
 
 
-def test_modes_of_home_meet_there():
+def test_a_3_rer_translates_and_moves_in_a_plane_from_one_home():
+    """Hinges along three directions of a plane, and planar joints in it."""
     axes = [(1, 0), (-0.5, 0.75**0.5), (-0.5, -(0.75**0.5))]
-    chains = [f"U[{x},{y},0; 0,0,1] P[{-y},{x},0] U[0,0,1; {x},{y},0]" for x, y in axes]
-    modes = {mode.name: mode for mode in operation_modes(chains)}
-    at_home = [other.mode for other in modes["2T1R"].meets if other.at_home]
-    assert at_home == ["3T"]
-    assert {value for name in modes["2T1R"].meets[0].example.values() for value in name} == {0.0}
+    modes = {mode.name: mode for mode in operation_modes([f"R[{x},{y},0] E[z] R[{x},{y},0]" for x, y in axes])}
+    at_home = {name: [other.mode for other in mode.meets if other.at_home] for name, mode in modes.items()}
+    assert (at_home["2T1R"], at_home["3T"]) == (["3T"], ["2T1R"])
+    assert {value for values in modes["3T"].meets[0].example.values() for value in values} == {0.0}
 
 
-@pytest.mark.parametrize("name", ["three_rps", "zeng2019"])
+@pytest.mark.parametrize("name", ["three_rps", pytest.param("zeng2019", marks=pytest.mark.deep)])
 def test_an_assembly_of_a_mode_is_one_of_the_file(name):
     """Ball joints, aliases and parallelograms that crossed over among them."""
     record = load_record(name)

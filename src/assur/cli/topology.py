@@ -65,7 +65,7 @@ def topology(
         assur topology zeng2019 --graph zeng2019.svg
         assur topology three_upu --modes
         assur topology three_upu --mode 3R
-        assur topology planar_3rrr --improve
+        assur topology fivebar --improve
         assur topology --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
         assur topology --chain "P[x] R[x] R[x] R[x]" \
             --chain "P[y] R[y] R[y] R[y]" --chain "P[z] R[z] R[z] R[z]"

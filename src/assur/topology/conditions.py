@@ -26,6 +26,9 @@ AWAY = 0.3
 SOMEWHERE: Vector = (0.843, 0.991, 0.986)
 """A way that no axis of a mechanism is likely to have anything to do with."""
 
+CONFIGURATIONS = 2
+"""Of each broken mechanism: two that agree."""
+
 FREE = 6
 """A limb of so many freedoms or more resists nothing, and needs no condition."""
 
@@ -80,7 +83,7 @@ class _Broken:
     def moves(self, chains: Sequence[Chain]) -> Numbers | None:
         """What limbs with lengths by chance move like; None where nothing can be said, or they do not move."""
         try:
-            mode = operation_modes(place(chains), hold=self.hold)[0]
+            mode = operation_modes(place(chains), CONFIGURATIONS, hold=self.hold)[0]
         except AssurError:
             return None
         return mode.freedoms, mode.poc
