@@ -105,14 +105,17 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
         (("--max-joints", "0"), "at most 0 joints"),
         (("--coupling", "1..0"), "--coupling 1..0"),
         (("--coupling", "a"), "--coupling: 'a' is not a whole number"),
-        (("--actuators", "arm"), "unknown place of the actuators 'arm'; there is: base, leg"),
+        (("--actuators", "arm"), "unknown place of the actuators 'arm'; there is: any, base, leg"),
         (("--top", "0"), "--top 0"),
         (("--actuate", "1.1"), "--actuate without --explain"),
         (("--explain", "tripteron", "--actuate", "1.1"), "--actuate beside the name tripteron"),
         (("--explain", "P[x"), "cannot read this chain"),
+        (("--motion", "3T", "--idle"), "idle joints for 3T, whose limbs are written without"),
+        (("--motion", "1T2R:XY"), "unknown motion '1T2R:XY'; there is: 1T2R:PU, 1T2R:RPR, 1T2R:UP"),
+        (("--motion", "3R", "--limbs", "2"), "2 limbs for 3R, whose limbs have one drive each; give 3"),
         (("--parasitic",), "unknown motion '3T'; there is: 1T2R, 1T3R, 2R, 2T3R"),
         (("--parasitic", "--motion", "1T2R", "--limbs", "2"), "2 limbs for 1T2R that others come with"),
-        (("--parasitic", "--motion", "1T2R", "--explain", "three_rps"), "--explain knows no mechanisms of --parasitic"),
+        (("--parasitic", "--motion", "1T2R", "--explain", "three_rps"), "--explain knows no parasitic mechanisms"),
     ],
 )
 def test_misuse_says_what_is_allowed(assur_cli, words, message):
@@ -155,5 +158,5 @@ def test_the_commands_of_the_page_find_the_known_mechanisms(assur_cli, command, 
 
 
 def test_the_page_has_its_commands():
-    assert len(ROWS) == 11
-    assert len({name for _, names in ROWS for name in names.split(", ")}) == 20
+    assert len(ROWS) == 13
+    assert len({name for _, names in ROWS for name in names.split(", ")}) == 22

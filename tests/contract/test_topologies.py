@@ -65,6 +65,8 @@ EXPECTED = {
     "3UPS&UP": "three_ups_up",
     "3-PRS": "three_prs",
     "Exechon": "exechon",
+    "Agile Eye": "agile_eye",
+    "4-RUU": "four_ruu",
 }
 
 

@@ -25,8 +25,11 @@ NAMED = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
 def read(text):
-    """A chain as a list of (letter, axes, the label that an axis runs through), (\"4R\", axis, None) and branches."""
-    tokens = re.findall(r"P\(4R\)\[[^\]]*\]|[RPHCU]\[[^\]]*\](?:@[A-Z])?|S|[{}|]", text)
+    """A chain as a list of (letter, axes, label), (\"4R\", axis, None) and branches.
+
+    A label is a name and the axis that runs through that point, None where the point is the centre.
+    """
+    tokens = re.findall(r"P\(4R\)\[[^\]]*\]|[RPHCU]\[[^\]]*\](?:@[A-Z])?|S(?:@[A-Z])?|[{}|]", text)
     assert "".join(tokens).replace(" ", "") == text.replace(" ", ""), text
     return _series(tokens)
 
@@ -40,13 +43,13 @@ def _series(tokens):
             while tokens.pop(0) == "|":
                 branches.append(_series(tokens))
             elements.append(branches)
-        elif token == "S":
-            elements.append(("S", np.eye(3), None))
+        elif token[0] == "S":
+            elements.append(("S", np.eye(3), (token[2:], None) if token[1:] else None))
         else:
             letter, inside = token.split("[")
             inside, label = inside.split("]")
             marked = [number for number, part in enumerate(re.split("[,;]", inside)) if "@" in part]
-            line = (label[1:], 0) if label else None
+            line = (label[1:], None) if label else None
             for number in marked:  # one of the axes of a U
                 line = (re.search("@([A-Z])", inside)[1], number)
             elements.append((letter.replace("P(4R)", "4R"), _axes(re.sub("@[A-Z]", "", inside)), line))
@@ -121,7 +124,8 @@ def placed(texts, seed):
         point = rng.uniform(-1, 1, 3)
         axis = axes[0]
         if line:
-            point = lines.setdefault(line[0], point) + rng.uniform(-1, 1) * axes[line[1]]
+            beside = rng.uniform(0.3, 1) * axes[line[1]] if line[1] is not None else 0.0
+            point = lines.setdefault(line[0], point) + beside  # a label behind the brackets is the centre
         if letter == "P":
             joint("P", near, far, [[0, 0, 0, *axis]])
         elif letter == "C":

@@ -10,6 +10,7 @@ def test_answers_are_plain_data(small):
     data = plain(answers(small))
     assert data["asked"] == {
         "motion": "3T",
+        "rows": [],
         "limbs": 3,
         "max_joints": 3,
         "coupling": None,
@@ -17,6 +18,7 @@ def test_answers_are_plain_data(small):
         "actuators": "base",
         "max_members": 20,
         "parasitic": False,
+        "idle": False,
     }
     assert data["found"] == len(data["mechanisms"]) == len(small.designs)
     assert data["limb_types"]["with_motion"] == sum(data["limb_types"]["by_poc"].values()) == len(small.limbs)

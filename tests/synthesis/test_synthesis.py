@@ -277,9 +277,9 @@ def test_misuse_is_refused(words, message):
 
 
 def test_unknown_names_are_refused():
-    with pytest.raises(UnknownNameError, match="2T1R, 3T, 3T1R, 3T3R"):
+    with pytest.raises(UnknownNameError, match="2T1R, 2T2R, 2T3R, 3R, 3T, 3T1R, 3T2R, 3T3R"):
         synthesis("6T")
-    with pytest.raises(UnknownNameError, match="base, leg"):
+    with pytest.raises(UnknownNameError, match="any, base, leg"):
         synthesis(actuators="platform")
 
 

@@ -84,6 +84,7 @@ def _families(synthesis: Synthesis, data: SynthesisAnswer, top: int) -> Renderab
     for shown, family in list(zip(data.families, synthesis.families, strict=True))[:top]:
         best = family.designs[0]
         limbs = "\n".join([_limbs(best), *(f"({name})" for name in shown.names)])
+        limbs += f"\n(as {best.row})" if len(synthesis.asked.rows) > 1 else ""
         numbers = (shown.rank, shown.members, shown.coupling_degree, shown.redundant_constraints, best.joints)
         rows.append((*map(str, numbers), " ".join(map(str, best.xi)), limbs))
     columns = ("rank", "members", "κ", "red.", "joints", "ξ", "simplest")
@@ -97,7 +98,9 @@ def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     yield f"positions    {data.positions}"
     that = "whose constraints leave the motion" if synthesis.asked.parasitic else "with the motion"
     yield f"limb types   {types.with_motion} {that}: {kinds or 'none'}"
-    route = "by their constraints at home" if synthesis.asked.parasitic else "by the rules"
+    route = "by the rules"
+    if synthesis.asked.parasitic or synthesis.asked.rows:
+        route = "by their constraints at home" if synthesis.asked.parasitic else "by their constraints"
     yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion {route}"
     if synthesis.asked.by_families:
         coupled = Counter(family.coupling_degree for family in data.families)

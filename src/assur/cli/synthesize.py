@@ -16,7 +16,8 @@ from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
     from assur.synthesis.limbs import Actuators
-    from assur.synthesis.synthesis import Synthesis, SynthesisQuestion
+    from assur.synthesis.question import SynthesisQuestion
+    from assur.synthesis.synthesis import Synthesis
 
 MILLION = 1_000_000
 """Combinations that are looked at without a word; some take seconds, a hundred times as many hours."""
@@ -29,7 +30,12 @@ def synthesize(
     *,
     motion: Annotated[
         str,
-        Parameter(metavar="3T|2T1R|3T1R|3T3R", help="T counts translations, R rotations, one about z; 3T if left out."),
+        Parameter(
+            metavar="3T|1T2R|2T1R:PPR|..",
+            help="T counts translations, R rotations; 3T if left out. 3T, 2T1R (in a plane), 3T1R and 3T3R have limbs"
+            " with parallelograms and inner loops; 2T, 2R, 3R, 1T1R, 1T2R, 2T2R, 3T2R, 1T3R, 2T3R limbs of R, P, U, S"
+            " that may share a point. A name means all virtual chains with it, NAME:ROW one of them, as 1T2R:UP.",
+        ),
     ] = "3T",
     limbs: Annotated[
         str | None,
@@ -55,9 +61,20 @@ def synthesize(
             " three joints at most. With one limb more than freedoms, a passive one alone constrains the platform."
         ),
     ] = False,
+    idle: Annotated[
+        bool,
+        Parameter(
+            help="Limbs may have one R that stays at rest and takes a redundant constraint away; for motions by virtual"
+            " chains, 3T:PPP and 3T1R:PPPR among them."
+        ),
+    ] = False,
     symmetric: Annotated[bool, Parameter(help="Only mechanisms of equal limbs.")] = False,
     actuators: Annotated[
-        str, Parameter(metavar="base|leg", help="Drive the first joint of each limb, or a P inside it, as in U-P-U.")
+        str,
+        Parameter(
+            metavar="base|leg|any",
+            help="Drive the first joint of each limb, or a P inside it, as in U-P-U, or any one R, P or C of it.",
+        ),
     ] = "base",
     top: Annotated[
         str, Parameter(metavar="N", help="How many to show and write; 20 if left out, with --json all.")
@@ -102,12 +119,15 @@ def synthesize(
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
         assur synthesize --motion 1T2R --parasitic --actuators leg --symmetric
+        assur synthesize --motion 3R --symmetric
+        assur synthesize --motion 1T2R:UP --top 5
         assur synthesize --limbs 2 --explain tripteron
         assur synthesize --motion 2T1R --explain "R[z] R[z] R[z]" "P[x] S" S
     """
     from assur.cli.interruption import handing_over
     from assur.cli.paths import planned_folder
-    from assur.synthesis.synthesis import Synthesis, TooManyError, question, synthesis
+    from assur.synthesis.question import question
+    from assur.synthesis.synthesis import Synthesis, TooManyError, synthesis
 
     members = _members(max_members)
     number = None if limbs is None else whole_number(limbs, "--limbs")
@@ -115,9 +135,19 @@ def synthesize(
     count = _count(top)
     folder = planned_folder(toml) if toml else None
     if explain:
-        if parasitic:
-            raise UsageError("--explain knows no mechanisms of --parasitic", hint="leave one of them out")
-        asked = question(motion, number, joints, degrees, symmetric=symmetric, actuators=place, members=members)
+        asked = question(
+            motion,
+            number,
+            joints,
+            degrees,
+            symmetric=symmetric,
+            actuators=place,
+            members=members,
+            parasitic=parasitic,
+            idle=idle,
+        )
+        if parasitic or asked.rows:
+            raise UsageError("--explain knows no parasitic mechanisms, and none by virtual chains")
         return _explained(explain, actuate, asked, shared)
     if actuate:
         raise UsageError("--actuate without --explain; a synthesis chooses the drives itself", hint="see --actuators")
@@ -136,6 +166,7 @@ def synthesize(
                 actuators=place,
                 members=members,
                 parasitic=parasitic,
+                idle=idle,
                 step=step,
                 most=most,
             )
@@ -171,7 +202,7 @@ def _range(text: str) -> tuple[int, int]:
     >>> _range("0..1"), _range("2")
     ((0, 1), (2, 2))
     """
-    from assur.synthesis.synthesis import ANY
+    from assur.synthesis.question import ANY
 
     if not text.strip():
         return ANY
@@ -188,7 +219,9 @@ def _place(text: str) -> Actuators:
         return "base"
     if text == "leg":
         return "leg"
-    raise UnknownNameError("place of the actuators", text, ("base", "leg"))
+    if text == "any":
+        return "any"
+    raise UnknownNameError("place of the actuators", text, ("base", "leg", "any"))
 
 
 def _count(text: str) -> int | None:

@@ -20,8 +20,9 @@ from assur.results.answers.topology import (
 from assur.synthesis.designs import Design
 from assur.synthesis.explanation import Explanation
 from assur.synthesis.known_mechanisms import DrivenLimb
-from assur.synthesis.positions import ABOUT_Z, in_words
-from assur.synthesis.synthesis import ANY, Synthesis, SynthesisQuestion
+from assur.synthesis.positions import ABOUT_Z, AS_WRITTEN, in_words
+from assur.synthesis.question import ANY, SynthesisQuestion
+from assur.synthesis.synthesis import Synthesis
 from assur.topology.answers import written_poc
 from assur.topology.notation import plain_text, symbolic_text
 
@@ -38,7 +39,7 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
     families = {id(design): rank for rank, family in enumerate(synthesis.families, 1) for design in family.designs}
     return SynthesisAnswer(
         asked=_asked(asked),
-        positions=ABOUT_Z if asked.parasitic else in_words(asked.motion, asked.limbs),
+        positions=_positions(asked),
         limb_types=LimbTypeCounts(
             len(synthesis.limbs),
             dict(sorted(Counter(f"t{limb.known.poc.t} r{limb.known.poc.r}" for limb in synthesis.limbs).items())),
@@ -88,9 +89,16 @@ def explanation_answer(
     )
 
 
+def _positions(asked: SynthesisQuestion) -> str:
+    if asked.parasitic:
+        return ABOUT_Z
+    return AS_WRITTEN if asked.rows else in_words(asked.motion, asked.limbs)
+
+
 def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
     return AskedSynthesis(
         asked.motion.name,
+        tuple(row.row for row in asked.rows),
         asked.limbs,
         asked.max_joints,
         None if asked.coupling == ANY else asked.coupling,
@@ -98,6 +106,7 @@ def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
         asked.actuators,
         asked.members,
         asked.parasitic,
+        asked.idle,
     )
 
 
@@ -116,6 +125,7 @@ def _design(rank: int, family: int, design: Design) -> DesignAnswer:
         rank=rank,
         family=family,
         names=tuple(design.names),
+        row=design.row,
         chains=tuple(chain.text for chain in design.chains),
         actuate=tuple(f"{limb}.{joint}" for limb, joint in design.actuated),
         mode=design.mode,
@@ -154,7 +164,7 @@ def _skeleton(synthesis: Synthesis, rank: int, width: int, design: Design) -> st
         actuate=design.actuated,
         mode=design.mode,
         declared=Declared(
-            poc=(poc.t, poc.r),
+            poc=None if design.row else (poc.t, poc.r),  # O' is the common point where limbs end there
             dim=poc.dim,
             dof=design.dof,
             xi=design.xi,

@@ -18,7 +18,6 @@ from assur.synthesis.required import RequiredMotion
 from assur.synthesis.tally import Tally
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chains
-from assur.topology.poc import PocSet
 from assur.topology.symbolic.refusals import Refusal
 
 MEMBERS = 20
@@ -71,6 +70,7 @@ class Sought:
         symmetric: whether all limbs must be equal.
         members: so many mechanisms of different limbs are listed.
         known: canonical forms of mechanisms that are listed however many joints they have.
+        reached: whether constraints say already that the limbs have the motion in the first of the placements.
     """
 
     motion: RequiredMotion
@@ -79,6 +79,7 @@ class Sought:
     symmetric: bool = False
     members: int = MEMBERS
     known: Collection[Key] = ()
+    reached: bool = False
 
 
 def assemble(chosen: Sequence[Class], sought: Sought) -> MechanismFamily:
@@ -107,7 +108,7 @@ def assemble(chosen: Sequence[Class], sought: Sought) -> MechanismFamily:
     tally = Tally(
         classes=1,
         combinations=total,
-        with_motion=total if isinstance(rules, Expected) else 0,
+        with_motion=total if sought.reached or isinstance(rules, Expected) else 0,
         coupling_degrees=degrees,
         tried=len(outcomes),
         unfixed=sum(rejection.unfixed for rejection in rejected),
@@ -193,7 +194,7 @@ def _outcome(
         known=_known(rules, motion),
         loops=twists.loops,
         dof=twists.dof,
-        mode="translation" if any(limb.needs_mode for limb in limbs) else "home",
+        mode="translation" if not motion.rotations and any(limb.needs_mode for limb in limbs) else "home",
     )
 
 
@@ -212,6 +213,5 @@ def _difference(twists: Confirmed, rules: Expected | Refusal) -> str:
 
 def _known(rules: Expected | Refusal, motion: RequiredMotion) -> Known:
     if isinstance(rules, Refusal):
-        poc = PocSet(len(motion.translations), len(motion.rotations), motion.dim)
-        return Known(poc, "twists", rules.reason)
+        return Known(motion.poc, "twists", rules.reason)
     return Known(rules.platform.poc, "both")

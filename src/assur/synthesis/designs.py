@@ -30,6 +30,7 @@ class Design:
         dof: F of Eq. (3), all of it the platform's.
         mode: "translation" where the limbs keep the platform from turning only once it does not turn, else "home".
         names: known mechanisms with the same limbs.
+        row: of the motions with the name that was asked for, which one it has; empty where there is one.
     """
 
     limbs: tuple[CandidateLimb, ...]
@@ -40,6 +41,7 @@ class Design:
     dof: int
     mode: Mode
     names: tuple[str, ...] = ()
+    row: str = ""
 
     @property
     def coupling_degree(self) -> int:

@@ -16,8 +16,9 @@ from assur.synthesis.known_mechanisms import DrivenLimb
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import KINDS, TYPES, LimbType, hybrid_types, limb_types
 from assur.synthesis.positions import placements, positions
+from assur.synthesis.question import ANY, SynthesisQuestion
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.synthesis import ANY, Step, Synthesis, SynthesisQuestion, ignored, searched
+from assur.synthesis.synthesis import Step, Synthesis, ignored, searched
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.chains import Chain, InnerLoop, Parallelogram
 from assur.topology.notation import plain_text

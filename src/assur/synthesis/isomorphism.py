@@ -42,10 +42,10 @@ class _Direction:
 
 @dataclass(frozen=True)
 class _Turn:
-    """An axis about which something turns, and the joint that it belongs to; no axis for a ball joint."""
+    """An axis about which something turns, of which joint, and the labelled points on it; no axis for a ball joint."""
 
     kind: str
-    label: int
+    points: tuple[int, ...]
     axis: Vector | None
 
 
@@ -94,9 +94,8 @@ def _key_of(branches: Sequence[_Path], rest: _Path, motion: RequiredMotion) -> K
     for number, branch in enumerate(branches):
         turns, stretches = _cut((*branch, *rest))
         own = [_frame_of_path(frame, number) for frame in _frames(turns, motion)]
-        if motion.axis is not None:
-            stretches[0].append(_Direction("", motion.axis))
-            stretches[-1].append(_Direction("", motion.axis))
+        for stretch, directions_of_motion in zip((stretches[0], stretches[-1]), motion.marks, strict=True):
+            stretch += [_Direction("", axis) for axis in directions_of_motion]
         if len(branches) > 1:
             ends, inside = _cut(branch)
             last = own[len(inside) - 1]
@@ -106,7 +105,7 @@ def _key_of(branches: Sequence[_Path], rest: _Path, motion: RequiredMotion) -> K
             else:
                 output = last
             kinds.append((len(ends), len(inside)))
-        kinds.append(tuple((turn.kind, turn.label) for turn in turns))
+        kinds.append(tuple((turn.kind, turn.points) for turn in turns))
         directions += stretches
         frames += own
     return (tuple(kinds), min(_described(ordered, frames) for ordered in _orders(directions)))
@@ -129,24 +128,24 @@ def _cut(path: _Path) -> tuple[list[_Turn], list[list[_Direction]]]:
     labels: dict[str, int] = {}
     for element, mark in path:
         if isinstance(element, Parallelogram):
-            kind, label = f"P({element.kind})", ""
+            kind = f"P({element.kind})"
             axes: tuple[Vector, ...] = (element.axis,)
         elif isinstance(element, ChainJoint):
-            kind, axes, label = element.type.letter, element.axes, element.point
-            if element.through:
-                raise UsageError("a limb with an axis through several labelled points has no canonical form")
+            kind, axes = element.type.letter, element.axes
         else:
             raise UsageError("a limb with an inner loop that does not stand first has no canonical form")
         if kind in ("P", "P(4R)"):
             stretches[-1].append(_Direction(kind + mark, axes[0]))
             continue
-        number = labels.setdefault(label, len(labels)) if label else -1
-        for axis in axes:
-            turns.append(_Turn(kind + mark, number, axis))
+        for place, axis in enumerate(axes):
+            points = element.points_on(place) if isinstance(element, ChainJoint) else ()
+            numbers = tuple(labels.setdefault(label, len(labels)) for label in points)
+            turns.append(_Turn(kind + mark, numbers, axis))
             stretches[-1].append(_Direction("", axis))
             stretches.append([_Direction("", axis)])
         if not axes:
-            turns.append(_Turn(kind + mark, number, None))
+            point = element.point if isinstance(element, ChainJoint) else ""
+            turns.append(_Turn(kind + mark, (labels.setdefault(point, len(labels)),) if point else (), None))
             stretches.append([])
     return turns, stretches
 

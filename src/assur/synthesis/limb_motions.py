@@ -127,8 +127,16 @@ def limb_by_itself(limb: LimbType, turns: Sequence[FloatArray]) -> CandidateLimb
     """
     chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
     twists = twists_at_will(limb.chain, np.random.default_rng(limb.freedoms), len(ANGLES))
-    rules = serial(chains[0], "free", chains[0].text)
-    return CandidateLimb(limb, chains, _known(chains[0].text, rules, twists), (), ())
+    return CandidateLimb(limb, chains, known_at_will(chains[0], twists), (), ())
+
+
+def known_at_will(chain: Chain, twists: FloatArray) -> Known:
+    """The POC set of a limb that nothing holds, by the rules and by its twists (N, 6, f) at a general point.
+
+    Errors:
+        RoutesDisagreeError: they differ.
+    """
+    return _known(chain.text, serial(chain, "free", chain.text), twists)
 
 
 def _by_rules(chain: Chain, motion: RequiredMotion) -> Motion | Refusal:

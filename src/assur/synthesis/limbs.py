@@ -25,8 +25,8 @@ from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Paralle
 from assur.topology.directions import NAMED, Vector
 from assur.topology.screws.edges import rank
 
-Actuators = Literal["base", "leg"]
-"""Where the driven joint of a limb stands: the first joint, or the first P between two joints that turn."""
+Actuators = Literal["base", "leg", "any"]
+"""Where the driven joint of a limb stands: the first joint, the first P between two joints that turn, or any one."""
 
 FREE = 6
 """Freedoms of a limb that constrains nothing."""
@@ -134,11 +134,13 @@ def _short(
             freedoms = sum(FREEDOMS_OF[letter] for letter, _ in word)
             if not motion.dim <= freedoms <= (motion.dim if passive else FREE):
                 continue
-            driven = _driven(word, actuators)
+            chain = Chain(tuple(map(_element, word)))
             if passive:
-                yield Chain(tuple(map(_element, word))), ()
-            elif driven is not None and not _spoils_a_cylinder(word, driven):
-                yield Chain(tuple(map(_element, word))), (driven,)
+                yield chain, ()
+                continue
+            for driven in driven_joints([letter for letter, _ in word], actuators):
+                if not _spoils_a_cylinder(word, driven):
+                    yield chain, (driven,)
 
 
 def _is_regular(limb: LimbType) -> bool:
@@ -202,9 +204,9 @@ def _candidates(
         joints = min(max_joints, FREE_LIMB_JOINTS) if free else max_joints
         for word in words(freedoms, joints, always=always, ball=free):
             for groups in _groupings(word):
-                driven = _driven(groups, actuators)
-                if len(groups) <= joints and driven is not None and not _spoils_a_cylinder(groups, driven):
-                    yield groups, driven
+                for driven in driven_joints([letter for letter, _ in groups], actuators):
+                    if len(groups) <= joints and not _spoils_a_cylinder(groups, driven):
+                        yield groups, driven
 
 
 def _always(motion: RequiredMotion) -> str:
@@ -225,13 +227,20 @@ def _groupings(word: Word, start: int = 0) -> Iterator[tuple[_Group, ...]]:
             yield (joint, *rest)
 
 
-def _driven(groups: tuple[_Group, ...], actuators: Actuators) -> int | None:
-    letters = [letter for letter, _ in groups]
+def driven_joints(letters: Sequence[str], actuators: Actuators) -> tuple[int, ...]:
+    """The places of the joints of which one is driven, of a limb with these letters, A for a P(4R).
+
+    >>> driven_joints("UPU", "leg"), driven_joints("UPU", "base"), driven_joints("RUPR", "any")
+    ((1,), (), (0, 2, 3))
+    """
+    can = tuple(place for place, letter in enumerate(letters) if letter in "RPC")
+    if actuators == "any":
+        return can
     if actuators == "base":
-        return 0 if letters[0] in "RPC" else None
+        return can[:1] if can[:1] == (0,) else ()
     turning = [index for index, letter in enumerate(letters) if letter not in "PA"]
     inside = [index for index in range(turning[0], turning[-1]) if letters[index] == "P"] if turning else []
-    return inside[0] if inside else None
+    return tuple(inside[:1])
 
 
 def _spoils_a_cylinder(groups: tuple[_Group, ...], driven: int) -> bool:

@@ -28,6 +28,9 @@ DIGITS = 15
 ABOUT_Z = "each limb is as written or turned about z by 90°; three also by 120° from one to the next"
 """How limbs stand whose motion at home counts."""
 
+AS_WRITTEN = "limbs stand as written to the virtual chain, or with x, y, z exchanged where it stays the same"
+"""How limbs stand that follow a virtual chain."""
+
 
 def positions(motion: RequiredMotion, limbs: int) -> tuple[FloatArray, ...]:
     """Rotations (3, 3) that take a limb as written into each of its positions.

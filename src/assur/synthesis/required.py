@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError
 from assur.numerics.rotations import about_axis
 from assur.topology.directions import NAMED, Vector
+from assur.topology.poc import PocSet
 
 FloatArray = NDArray[np.float64]
 
@@ -35,6 +36,17 @@ class RequiredMotion:
     def dim(self) -> int:
         """Independent elements: freedoms of the platform, and limbs with one actuator each."""
         return len(self.translations) + len(self.rotations)
+
+    @property
+    def marks(self) -> tuple[tuple[Vector, ...], tuple[Vector, ...]]:
+        """Directions that it singles out in the base and in the platform."""
+        single = () if self.axis is None else (self.axis,)
+        return single, single
+
+    @property
+    def poc(self) -> PocSet:
+        """The numbers of its POC set."""
+        return PocSet(len(self.translations), len(self.rotations), self.dim)
 
     @property
     def twists(self) -> FloatArray:

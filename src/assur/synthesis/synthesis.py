@@ -3,61 +3,34 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations_with_replacement
-from typing import get_args
 
-from assur.errors import Interrupted, UnknownNameError, UsageError
+from assur.errors import Interrupted, UsageError
 from assur.synthesis.assembly import MEMBERS, MechanismFamily, Range, Sought, assemble, mechanism
 from assur.synthesis.classes import Class, are_equal, classes, number_of_members
 from assur.synthesis.designs import Design
+from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, sets_of_classes
 from assur.synthesis.isomorphism import Key
 from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import Actuators, hybrid_types, limb_types
 from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
 from assur.synthesis.positions import placements, positions
-from assur.synthesis.required import PARASITIC, RequiredMotion, motion_named
+from assur.synthesis.question import ANY, SynthesisQuestion, question
 from assur.synthesis.tally import Tally, total
+from assur.synthesis.virtual_chains import VirtualChain
 from assur.topology.agreement import RoutesDisagreeError
 
 Step = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
-ANY = (0, 99)
-"""Every coupling degree."""
-
 
 class TooManyError(UsageError):
     """More combinations than are looked at unasked."""
-
-
-@dataclass(frozen=True)
-class SynthesisQuestion:
-    """What was asked for; see `synthesis`."""
-
-    motion: RequiredMotion
-    limbs: int
-    max_joints: int
-    coupling: tuple[int, int]
-    symmetric: bool
-    actuators: Actuators
-    members: int
-    parasitic: bool = False
-
-    @property
-    def hybrid(self) -> bool:
-        """Whether some limbs begin with an inner loop and have two actuators."""
-        return self.limbs < self.motion.dim
-
-    @property
-    def by_families(self) -> bool:
-        """Whether what is found is told by families, which are many."""
-        return self.hybrid or self.parasitic
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +72,7 @@ def synthesis(
     actuators: Actuators = "base",
     members: int = MEMBERS,
     parasitic: bool = False,
+    idle: bool = False,
     step: Step = ignored,
     most: int | None = None,
 ) -> Synthesis:
@@ -109,17 +83,19 @@ def synthesis(
     that begin with an inner loop of a catalogue have two, one in each of its branches.
 
     Args:
-        motion: "3T", "2T1R", "3T1R" or "3T3R"; T counts translations, R rotations (one of them about z).
+        motion: "3T", "2T1R", "3T1R" or "3T3R"; T counts translations, R rotations (one of them about z). Or one of
+            `virtual_chains`, as "1T2R" for all of its rows and "1T2R:UP" for one.
         limbs: number of limbs, by default the number of freedoms; half of it, rounded up, is the least.
         max_joints: of a limb, on the way through one branch of its inner loop.
         coupling: least and largest coupling degree, Eq. (6).
         symmetric: only mechanisms of equal limbs. Without it, also the simplest of those with different limbs.
         actuators: "base" where the first joint of each limb is driven (R, P or the translation of C), "leg" where it is
-            the first P between two joints that turn.
+            the first P between two joints that turn, "any" for any one R, P or C.
         members: of each family of different limbs so many are listed, the simplest, and known ones.
         parasitic: the motion is that at home, and others come with it: by limbs of three joints at most, whose
             constraints at home leave it, and a finite motion of each mechanism that is listed. One limb more than the
             motion has freedoms is passive, and alone constrains the platform.
+        idle: whether limbs that follow a virtual chain may have one R that stays at rest.
         step: called with (steps done, steps in all).
         most: combinations at most; any number where None.
 
@@ -142,6 +118,7 @@ def synthesis(
         actuators=actuators,
         members=members,
         parasitic=parasitic,
+        idle=idle,
     )
     return searched(asked, step, most)
 
@@ -162,11 +139,12 @@ def searched(
     """
     if asked.parasitic:
         return _parasitic(asked, step, most)
+    if asked.rows:
+        return _with_points(asked, step, most, also)
     usable, left_out, disagreements = _limbs(asked, step)
     classes_of_limbs = classes(usable)
     chosen = _sets_of_classes(classes_of_limbs, asked)
-    count = sum(map(number_of_members, chosen)) if not asked.symmetric else sum(len(some[0]) for some in chosen)
-    _refuse_more(most, count, len(usable))
+    _refuse_more(most, _combinations(chosen, asked), len(usable))
     sought = Sought(
         asked.motion,
         Range(*asked.coupling),
@@ -183,6 +161,10 @@ def searched(
     except KeyboardInterrupt:
         raise Interrupted(_answer(asked, classes_of_limbs, left_out, families, disagreements)) from None
     return _answer(asked, classes_of_limbs, left_out, families, disagreements)
+
+
+def _combinations(chosen: Sequence[tuple[Class, ...]], asked: SynthesisQuestion) -> int:
+    return sum(len(some[0]) if asked.symmetric else number_of_members(some) for some in chosen)
 
 
 def _refuse_more(most: int | None, count: int, types: int) -> None:
@@ -205,13 +187,46 @@ def _parasitic(asked: SynthesisQuestion, step: Step, most: int | None) -> Synthe
         arranged = list(arranged_classes(classes_of_limbs, asked.motion, asked.limbs))
         if asked.symmetric:
             arranged = [one for one in arranged if are_equal(one.chosen)]
-        _refuse_more(most, sum(one.members for one in arranged), sum(map(len, classes_of_limbs)))
+        if not asked.symmetric:  # equal limbs are few
+            _refuse_more(most, sum(one.members for one in arranged), sum(map(len, classes_of_limbs)))
         for done, one in enumerate(arranged):
             step(done, len(arranged))
             families.append(moved(one, sought))
     except KeyboardInterrupt:
         raise Interrupted(_answer(asked, classes_of_limbs, Counter(), families, ())) from None
     return _answer(asked, classes_of_limbs, Counter(), families, ())
+
+
+def _with_points(asked: SynthesisQuestion, step: Step, most: int | None, also: Sequence[Key]) -> Synthesis:
+    """Mechanisms whose limbs follow a virtual chain, for each row of the motion."""
+    families: list[MechanismFamily] = []
+    classes_of_limbs: list[Class] = []
+    left_out: Counter[str] = Counter()
+    try:
+        for number, row in enumerate(asked.rows):
+            step(number, len(asked.rows))
+            types = following_types(row, asked.max_joints, asked.actuators, idle=asked.idle)
+            limbs = following_limbs(row, types, asked.limbs)
+            left_out["not the motion"] += len(types) - len(limbs)
+            classes_of_limbs += classes_by_constraints(limbs, row)
+            sets = list(sets_of_classes(classes_by_constraints(limbs, row), row, asked.limbs))
+            if asked.symmetric:
+                sets = [(chosen, places) for chosen, places in sets if are_equal(chosen)]
+            _refuse_more(most, _combinations([chosen for chosen, _ in sets], asked), len(limbs))
+            known = (*known_mechanisms(row), *also)
+            for done, (chosen, places) in enumerate(sets):
+                step(number * len(sets) + done, len(asked.rows) * len(sets))
+                degrees = Range(*asked.coupling)
+                sought = Sought(row, degrees, (places,), asked.symmetric, asked.members, known, reached=True)
+                families.append(_of_row(assemble(chosen, sought), row))
+    except KeyboardInterrupt:
+        raise Interrupted(_answer(asked, classes_of_limbs, left_out, families, ())) from None
+    return _answer(asked, classes_of_limbs, left_out, families, ())
+
+
+def _of_row(family: MechanismFamily, row: VirtualChain) -> MechanismFamily:
+    designs = tuple(dataclasses.replace(design, row=row.row) for design in family.designs)
+    return dataclasses.replace(family, designs=designs)
 
 
 def _sets_of_classes(every: Sequence[Class], asked: SynthesisQuestion) -> list[tuple[Class, ...]]:
@@ -247,51 +262,6 @@ def _answer(
     )
 
 
-def question(
-    motion: str = "3T",
-    limbs: int | None = None,
-    max_joints: int = 5,
-    coupling: tuple[int, int] = ANY,
-    *,
-    symmetric: bool = False,
-    actuators: Actuators = "base",
-    members: int = MEMBERS,
-    parasitic: bool = False,
-) -> SynthesisQuestion:
-    """What is asked of a synthesis, by the arguments of `synthesis`.
-
-    Errors:
-        UnknownNameError, UsageError: as `synthesis`.
-    """
-    target = motion_named(motion, among=PARASITIC) if parasitic else motion_named(motion)
-    number = target.dim if limbs is None else limbs
-    if parasitic and number not in (target.dim, target.dim + 1):
-        raise UsageError(
-            f"{number} limbs for {target.name} that others come with; each has one drive, and at most one has none",
-            hint=f"give {target.dim}, or {target.dim + 1} of which one has no drive",
-        )
-    least = max(2, math.ceil(target.dim / 2))
-    if not parasitic and not least <= number <= target.dim:
-        raise UsageError(
-            f"{number} limbs for {target.name}; a limb has one actuator, or two with an inner loop",
-            hint=f"give {least} to {target.dim}, or leave the number out for {target.dim}",
-        )
-    if number < target.dim and actuators == "leg":
-        raise UsageError(
-            f"{number} limbs for {target.name} with actuators in the legs; with inner loops they stand on the base",
-            hint=f"leave out the place of the actuators, or ask for {target.dim} limbs",
-        )
-    if max_joints < 1:
-        raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
-    if not 0 <= coupling[0] <= coupling[1]:
-        raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
-    if actuators not in get_args(Actuators):
-        raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
-    if members < 1:
-        raise UsageError(f"{members} members of each family; one at least")
-    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members, parasitic)
-
-
 def _limbs(asked: SynthesisQuestion, step: Step) -> tuple[list[CandidateLimb], Counter[str], tuple[str, ...]]:
     """Limbs with the motion, how many have it not and why, and those on which the routes disagree."""
     types = limb_types(asked.motion, asked.max_joints, asked.actuators)
@@ -320,6 +290,9 @@ def _sorted(verdicts: Sequence[LimbVerdict]) -> tuple[list[CandidateLimb], Count
 
 def _names(asked: SynthesisQuestion) -> Callable[[Design], tuple[str, ...]]:
     """What gives the names of known mechanisms with the same limbs; parasitic ones are placed alike, too."""
+    if asked.rows:
+        by_row = {row.row: known_mechanisms(row) for row in asked.rows}
+        return lambda design: by_row[design.row].get(mechanism(design.limbs), ())
     if asked.parasitic:
         placed = known_by_directions(asked.motion)
         return lambda design: tuple(one.name for one in placed if one.is_like(design))

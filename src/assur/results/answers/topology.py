@@ -357,9 +357,10 @@ class TopologyAnswer(Answer):
 
 @dataclass(frozen=True)
 class AskedSynthesis:
-    """What was asked of a synthesis; `coupling` is null where any degree would do."""
+    """What was asked of a synthesis; `coupling` is null where any degree would do, `rows` are virtual chains."""
 
     motion: str
+    rows: Names
     limbs: int
     max_joints: int
     coupling: tuple[int, int] | None
@@ -367,6 +368,7 @@ class AskedSynthesis:
     actuators: str
     max_members: int
     parasitic: bool
+    idle: bool
 
 
 @dataclass(frozen=True)
@@ -403,11 +405,12 @@ class DesignLimb:
 
 @dataclass(frozen=True)
 class DesignAnswer:
-    """A mechanism with the motion, and the rank of its family."""
+    """A mechanism with the motion, the rank of its family, and which of the motions with that name it has."""
 
     rank: int
     family: int
     names: Names
+    row: str
     chains: Names
     actuate: Names
     mode: str

@@ -1,0 +1,100 @@
+"""What is asked of a synthesis: a motion, how many limbs of what length, where drives stand, what is wanted of κ."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import get_args
+
+from assur.errors import UnknownNameError, UsageError
+from assur.synthesis.assembly import MEMBERS
+from assur.synthesis.limbs import Actuators
+from assur.synthesis.required import MOTIONS, PARASITIC, RequiredMotion, motion_named
+from assur.synthesis.virtual_chains import VIRTUAL_CHAINS, VirtualChain, rows_named
+
+ANY = (0, 99)
+"""Every coupling degree."""
+
+
+@dataclass(frozen=True)
+class SynthesisQuestion:
+    """What was asked for; see `synthesis`."""
+
+    motion: RequiredMotion
+    limbs: int
+    max_joints: int
+    coupling: tuple[int, int]
+    symmetric: bool
+    actuators: Actuators
+    members: int
+    parasitic: bool = False
+    rows: tuple[VirtualChain, ...] = ()
+    idle: bool = False
+
+    @property
+    def hybrid(self) -> bool:
+        """Whether some limbs begin with an inner loop and have two actuators."""
+        return self.limbs < self.motion.dim
+
+    @property
+    def by_families(self) -> bool:
+        """Whether what is found is told by families, which are many."""
+        return self.hybrid or self.parasitic or bool(self.rows)
+
+
+def question(
+    motion: str = "3T",
+    limbs: int | None = None,
+    max_joints: int = 5,
+    coupling: tuple[int, int] = ANY,
+    *,
+    symmetric: bool = False,
+    actuators: Actuators = "base",
+    members: int = MEMBERS,
+    parasitic: bool = False,
+    idle: bool = False,
+) -> SynthesisQuestion:
+    """What is asked of a synthesis, by the arguments of `synthesis`.
+
+    Errors:
+        UnknownNameError, UsageError: as `synthesis`.
+    """
+    name = motion.strip().upper()
+    if not parasitic and name.partition(":")[0] not in {*MOTIONS, *VIRTUAL_CHAINS}:
+        hint = "T counts translations, R rotations: 3T is three translations without rotation"
+        raise UnknownNameError("motion", motion, {*MOTIONS, *VIRTUAL_CHAINS}, hint=hint)
+    rows = () if parasitic or name in MOTIONS else rows_named(motion)
+    target = rows[0] if rows else motion_named(motion, among=PARASITIC if parasitic else MOTIONS)
+    number = target.dim if limbs is None else limbs
+    if parasitic and number not in (target.dim, target.dim + 1):
+        raise UsageError(
+            f"{number} limbs for {target.name} that others come with; each has one drive, and at most one has none",
+            hint=f"give {target.dim}, or {target.dim + 1} of which one has no drive",
+        )
+    if idle and not rows:
+        raise UsageError(
+            f"idle joints for {target.name}, whose limbs are written without",
+            hint=f"motions by virtual chains may have them: {', '.join(VIRTUAL_CHAINS)}, of 3T as 3T:PPP",
+        )
+    if rows and number != target.dim:
+        raise UsageError(f"{number} limbs for {target.name}, whose limbs have one drive each; give {target.dim}")
+    least = max(2, math.ceil(target.dim / 2))
+    if not parasitic and not least <= number <= target.dim:
+        raise UsageError(
+            f"{number} limbs for {target.name}; a limb has one actuator, or two with an inner loop",
+            hint=f"give {least} to {target.dim}, or leave the number out for {target.dim}",
+        )
+    if number < target.dim and actuators == "leg":
+        raise UsageError(
+            f"{number} limbs for {target.name} with actuators in the legs; with inner loops they stand on the base",
+            hint=f"leave out the place of the actuators, or ask for {target.dim} limbs",
+        )
+    if max_joints < 1:
+        raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
+    if not 0 <= coupling[0] <= coupling[1]:
+        raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
+    if actuators not in get_args(Actuators):
+        raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
+    if members < 1:
+        raise UsageError(f"{members} members of each family; one at least")
+    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members, parasitic, rows, idle)
