@@ -19,6 +19,7 @@ COMMANDS = (
         "forces",
         "stiffness",
         "errors",
+        "identify",
         "dynamics",
     ),
     *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),

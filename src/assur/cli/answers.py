@@ -26,6 +26,7 @@ from assur.results.answers.files import (
     WrittenReport,
 )
 from assur.results.answers.forces import CapacityAnswer, ForcesAnswer
+from assur.results.answers.identification import IdentificationAnswer
 from assur.results.answers.indices import IndicesAnswer, MapsAnswer, OverallAnswer
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
 from assur.results.answers.masses import MassesAnswer
@@ -63,6 +64,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),
     "forces": (ForcesAnswer, CapacityAnswer, MapsAnswer),
+    "identify": (IdentificationAnswer,),
     "indices": (IndicesAnswer, OverallAnswer, MapsAnswer),
     "inverse": (InverseAnswer, CertifiedInverse),
     "list": (CatalogueAnswer,),
