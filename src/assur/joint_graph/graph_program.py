@@ -5,7 +5,7 @@ Dimensions are uniform numbers of a program, so that a mechanism with other dime
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import groupby
@@ -31,7 +31,8 @@ class GraphProgram:
     """Numbers of a configuration as a program of its state.
 
     Attributes:
-        tape: varying numbers are of the state, rates of ball joints, others that are given; uniform ones dimensions.
+        tape: varying numbers are of the state, rates of ball joints, others that are given; uniform ones are those that
+            are the same everywhere, then dimensions.
         places: of the varying numbers among all these.
         names: of all outputs, in their order.
         constants: outputs that are the same at every configuration of every mechanism of the structure.
@@ -44,11 +45,20 @@ class GraphProgram:
     constants: Mapping[str, float]
     code: CodeType
 
-    def __call__(self, record: MechanismRecord, values: FloatArray, given: FloatArray | None = None) -> FloatArray:
-        """All outputs (m, N) at joint values (N, n) of a mechanism of the structure, and other given numbers (g, N)."""
+    def __call__(
+        self,
+        record: MechanismRecord,
+        values: FloatArray,
+        given: FloatArray | None = None,
+        same: Sequence[float] = (),
+    ) -> FloatArray:
+        """All outputs (m, N) at joint values (N, n) of a mechanism of the structure.
+
+        Of other numbers those that are the same everywhere are `same`, the others `given` (g, N).
+        """
         answer = np.empty((len(self.names), len(values)))
         numbers = self._varying(record, np.ascontiguousarray(values.T), given)
-        self.straight_line.fill(answer, self._rows, numbers, dimensions(record))
+        self.straight_line.fill(answer, self._rows, numbers, [*same, *dimensions(record)])
         answer[self._constant_rows] = self._constant_values[:, None]
         return answer
 

@@ -25,13 +25,16 @@ Wanted = Callable[..., Outputs]
 """What a configuration, and other numbers that are given, are asked for."""
 
 
-def program(record: MechanismRecord, asked: Wanted, given: tuple[str, ...] = ()) -> GraphProgram:
+def program(
+    record: MechanismRecord, asked: Wanted, given: tuple[str, ...] = (), same: tuple[str, ...] = ()
+) -> GraphProgram:
     """The program of what a function asks of a configuration.
 
     Args:
         record: the mechanism.
         asked: names numbers of a configuration; the same function gives the same program.
         given: names of other varying numbers, which the function takes after the configuration.
+        same: names of numbers that are the same at every configuration, which it takes before those.
 
     Example: the frame of the platform of a five-bar turns and moves in the plane.
 
@@ -43,12 +46,12 @@ def program(record: MechanismRecord, asked: Wanted, given: tuple[str, ...] = ())
     >>> program(record, height)(record, np.array([[np.pi / 2, 0.0, 0.0, 0.0, 0.0]])).shape
     (1, 1)
     """
-    return _programs(_structure(record), asked, given)
+    return _programs(_structure(record), asked, given, same)
 
 
 @lru_cache(maxsize=256)
-def _programs(structure: _Structure, asked: Wanted, given: tuple[str, ...]) -> GraphProgram:
-    return kept_program((structure.key, given), asked, partial(structure.program, asked, given))
+def _programs(structure: _Structure, asked: Wanted, given: tuple[str, ...], same: tuple[str, ...]) -> GraphProgram:
+    return kept_program((structure.key, given, same), asked, partial(structure.program, asked, given, same))
 
 
 @lru_cache(maxsize=64)
@@ -87,7 +90,7 @@ class _Structure:
     def __hash__(self) -> int:
         return hash(self.key)
 
-    def program(self, asked: Wanted, given: tuple[str, ...]) -> GraphProgram:
+    def program(self, asked: Wanted, given: tuple[str, ...], same: tuple[str, ...]) -> GraphProgram:
         recorder, record = Recorder(), self.record
         varying = {name: tuple(map(recorder.varying, own)) for name, own in state_names(record).items()}
         rates = {
@@ -103,7 +106,7 @@ class _Structure:
                 uniform[name] = recorder.uniform(name)
             return uniform[name]
 
-        others = [recorder.varying(name) for name in given]
+        others = [*map(recorder.uniform, same), *map(recorder.varying, given)]
         outputs = asked(Configuration(joint_graph(record), self.pattern.mapped(number), varying, rates), *others)
         constants = {name: float(value) for name, value in outputs.items() if not isinstance(value, Recorded)}
         tape = recorder.tape({name: value for name, value in outputs.items() if name not in constants})

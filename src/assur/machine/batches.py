@@ -66,7 +66,7 @@ class Batch:
     @cached_property
     def program(self) -> GraphProgram:
         """Of the question, lengths in the mechanism's unit."""
-        return program(self.record, self.question, self.question.given)
+        return program(self.record, self.question, self.question.given, self.question.same)
 
     def balanced(self, asked: Asked) -> tuple[Balance, BoolArray]:
         """Forces, and where (N,) they are clear; elsewhere numbers mean nothing."""
@@ -74,7 +74,7 @@ class Batch:
         lengths = np.array([item.kind == "length" for item in record.coordinates])
         angles = any(name in ANGLES for name in record.platform.pose)
         rotation = platform_frame(record, asked.values)[0] if angles else None
-        numbers = self.program(record, asked.values, self._given(asked, rotation))
+        numbers = self.program(record, asked.values, self._given(asked, rotation), self.same.tolist())
         with np.errstate(all="ignore"):
             driven = self._matrix("driven", numbers, len(record.drives), len(self.units))
             inverse = _inverse(driven)
@@ -103,9 +103,9 @@ class Batch:
         return np.array([METRES[self.record.unit] if name in LENGTHS else 1.0 for name in names])
 
     def _given(self, asked: Asked, rotation: FloatArray | None) -> FloatArray:
-        """Numbers (g, N), those that are the same first."""
+        """What is given (g, N)."""
         count, metre, pose = len(asked.values), METRES[self.record.unit], self.record.platform.pose
-        given = [np.broadcast_to(self.same[:, None], (len(self.same), count))]
+        given = [np.empty((0, count))]
         if self.question.loaded:
             parts = asked.load.force / metre, asked.load.moment / metre**2
             given += [np.broadcast_to(part, (count, 3)).T for part in parts]

@@ -39,7 +39,7 @@ class IdleMotion:
 
 @dataclass(frozen=True)
 class InverseDynamics:
-    """The question; what is given beside a configuration is named by `given`, lengths in the mechanism's unit.
+    """The question; what is told beside a configuration is named by `same` and `given`, lengths in the file's unit.
 
     Attributes:
         pose: its coordinates.
@@ -68,14 +68,20 @@ class InverseDynamics:
     heavy: bool
 
     @property
-    def given(self) -> tuple[str, ...]:
-        """Names of what is given."""
-        names = rate_names(self.pose)
+    def same(self) -> tuple[str, ...]:
+        """Names of what is the same at every configuration."""
         return (
             *(f"{link} {PLACES[k]}" for link, places in self.bodies for k in places),
             *(f"rotor {column}" for column in self.rotors),
             *(f"unit {column}" for column in self.units),
             *(f"gravity {axis}" for axis in self.gravity),
+        )
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """Names of what is given beside the configuration, behind these."""
+        names = rate_names(self.pose)
+        return (
             *((f"load {k}" for k in range(6)) if self.loaded else ()),
             *((f"{what} {name}" for what in ("rate", "change") for name in names) if self.moving else ()),
             *(TURNED if angles_given(self.pose) else ()),
@@ -88,7 +94,7 @@ class InverseDynamics:
         "second j": of the joints; "kinetic", "potential"; "square l": of gaps; "size", "inverse": squared norms of the
         closure and, estimated, of its inverse; "left m" and "among m": what rows leave, of how much.
         """
-        return _Solution(self, configuration, dict(zip(self.given, numbers, strict=True))).outputs()
+        return _Solution(self, configuration, dict(zip((*self.same, *self.given), numbers, strict=True))).outputs()
 
 
 @dataclass(frozen=True, eq=False)

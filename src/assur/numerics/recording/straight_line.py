@@ -1,16 +1,20 @@
 """Tapes as straight-line Python of ours: arrays go through NumPy, a few elements through Python's own floats.
 
+Where NumPy has worked for as long as machine code takes to load, that goes on: a few elements at a time stay in the
+cache, and the bits are the same.
+
 The lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them.
 """
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import sqrt
 from types import CodeType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,10 +22,18 @@ from numpy.typing import NDArray
 from assur.numerics.recording.registers import assignments
 from assur.numerics.recording.tape import Tape
 
+if TYPE_CHECKING:
+    from assur.numerics.recording.interval_plan import IntervalPlan
+
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 
 FEW = 12
 """So many elements take less time one by one as Python's floats than as arrays, by some 40 against 500 ns a line."""
+AT_ONCE = 256
+"""Elements that machine code works on at a time."""
+REPAID = 1_000_000_000
+"""Elements times operations after which machine code is loaded: by NumPy they take about a second."""
 TEXT = {"+": "{} + {}", "-": "{} - {}", "*": "{} * {}", "/": "{} / {}", "negative": "-{}", "root": "root({})"}
 
 
@@ -51,9 +63,40 @@ class StraightLine:
         """The same, each output into its row of a larger answer (M, N); without roots, numbers may be complex."""
         if varying.shape[1] <= FEW and self._filled_one_by_one(answer, rows, varying, uniform):
             return
+        if answer.dtype == varying.dtype == float and _DONE.repaid(len(self.tape.operations) * varying.shape[1]):
+            self.fill_by_code(answer, rows, varying, uniform)
+            return
         with np.errstate(all="ignore"):
             for row, numbers in zip(rows, self._run(list(varying), uniform, _roots), strict=True):
                 answer[row] = numbers
+
+    def fill_by_code(
+        self, answer: FloatArray, rows: Sequence[int], varying: FloatArray, uniform: Sequence[float]
+    ) -> None:
+        """The same by machine code."""
+        from assur.numerics.recording.float_code import run  # numba takes long to start
+
+        plan, row_of = self._plan
+        work = np.empty((plan.places, AT_ONCE))
+        work[: len(uniform) + len(plan.numbers)] = np.array([*uniform, *plan.numbers])[:, None]
+        places = np.array(rows, dtype=np.intp)
+        run(plan.steps, np.ascontiguousarray(varying), answer, places[row_of[0]], work)
+        for first, other in row_of[1]:  # outputs that are one number
+            answer[places[other]] = answer[places[first]]
+
+    @cached_property
+    def _plan(self) -> tuple[IntervalPlan, tuple[IntArray, list[tuple[int, int]]]]:
+        """The tape as rows; of each stored number the first output that it is, and outputs that are alike."""
+        from assur.numerics.recording.interval_plan import interval_plan
+
+        plan, first = interval_plan(self.tape), dict[int, int]()
+        alike = [
+            (first[entry], place)
+            for place, entry in enumerate(self.tape.outputs.values())
+            if first.setdefault(entry, place) != place
+        ]
+        stored = {plan.rows[entry]: place for entry, place in first.items()}
+        return plan, (np.array([stored[row] for row in range(len(stored))], dtype=np.intp), alike)
 
     def _filled_one_by_one(
         self, answer: NDArray[Any], rows: Sequence[int], varying: NDArray[Any], uniform: Sequence[float]
@@ -72,6 +115,22 @@ class StraightLine:
         exec(self.code, names)
         run: Callable[..., Sequence[Any]] = names["run"]
         return run
+
+
+@dataclass
+class _Done:
+    """Work done so far that machine code could have done."""
+
+    work: int = 0
+    compilable: bool = field(default_factory=lambda: importlib.util.find_spec("numba") is not None)
+
+    def repaid(self, work: int) -> bool:
+        """Whether machine code is to be used from now on."""
+        self.work = min(self.work + work, REPAID)
+        return self.compilable and self.work >= REPAID
+
+
+_DONE = _Done()
 
 
 def compiled(tape: Tape) -> CodeType:
