@@ -218,3 +218,16 @@ def test_a_closed_form_says_that_links_which_three_directions_hold_stand_as_at_h
     text = derived_closed_form(draft_of(parse_chains(UNLIKE["a limb with a loop in it"]), tmp_path))
     form = names_of(text, tmp_path / "closed_form.py")["CLOSED_FORM"]
     assert (form.complete_for, "three directions" in form.reduced_because) == ("reduced", True)
+
+
+@pytest.mark.deep
+def test_what_loops_keep_as_it_is_is_no_factor_that_both_determinants_share(tmp_path):
+    """Two sliders on parallel rails: how far their links reach from them differs by what the rails are apart."""
+    chains = UNLIKE["parallelograms across each other, sliders along the last"]
+    solution = analytic_solution(draft_of(parse_chains(chains), tmp_path), "inverse")
+    equations, dimensions = velocity_equations(solution), {*solution.symbols.parameters.values()}
+    parallel, serial = (
+        {factor for factor, _ in own if factor.free_symbols - dimensions}
+        for own in (equations.parallel, equations.serial)
+    )
+    assert (len(parallel), len(serial), parallel & serial) == (3, 5, set())

@@ -21,6 +21,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import turning_in_space
+from assur.derivation.steady_sums import steady_sum, with_steady_sum
 from assur.derivation.symbols import circle_of
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.mechanism import Joint
@@ -108,6 +109,7 @@ class _Velocities:
         self.pose = [sympy.Symbol(f"d_{name}", real=True) for name in self.record.platform.pose]
         self.inputs = [sympy.Symbol(f"d_{driven.name}", real=True) for driven in self.record.inputs]
         self.passive: list[sympy.Symbol] = []
+        self.steady: list[tuple[sympy.Expr, sympy.Expr]] = []
         self.carriers: dict[UnknownDirection, sympy.Symbol] = {}
         self.rates = dict(self._rates())
 
@@ -139,8 +141,10 @@ class _Velocities:
             looked_at, rows = shared, better
 
     def _on_given_circles(self, factors: tuple[tuple[sympy.Expr, int], ...]) -> tuple[tuple[sympy.Expr, int], ...]:
-        """Factors without those that are sums of the squares of a cosine and its sine."""
+        """Factors without those that are sums of the squares of a cosine and its sine, or sums that loops keep."""
         plain = [(self._on_circles(base), power) for base, power in factors]
+        for total, whole in self.steady:
+            plain = [(with_steady_sum({ONE: base}, total, whole)[ONE], power) for base, power in plain]
         number = sympy.prod([base**power for base, power in plain if base.is_number])
         return ((number, 1), *((base, power) for base, power in plain if not base.is_number))
 
@@ -148,7 +152,8 @@ class _Velocities:
         """Equations two of which were multiples of each other where a shared factor vanishes; None: there are none.
 
         Of a and b, whose sum l a + m b has the factor, that sum without it and l b - m a take the place: these say the
-        same but where l and m vanish together.
+        same but where l and m vanish together. Where loops keep a sum of multiples of l and m as it is, they do so
+        nowhere, and by these multiples nothing is added that could vanish.
         """
         shares = [
             (i, j, *primitive([rows[j][key], -rows[i][key]]))
@@ -167,7 +172,14 @@ class _Velocities:
             factor, _ = sympy.fraction(tidy(total[own] / plain[own]))
             if not {part for part, _ in sympy.factor_list(factor)[1]} & shared:
                 continue
-            across = divided(self._sum(rows[j], first, rows[i], -second))
+            if (steady := steady_sum(self.solution, first, second)) is None:
+                across = divided(self._sum(rows[j], first, rows[i], -second))
+            else:
+                along, other, whole = steady
+                across = self._sum(rows[j], along, rows[i], -other)
+                total = along * first + other * second
+                across = divided(with_steady_sum(across, total, whole))
+                self.steady.append((total, whole))
             return [plain if k == i else across if k == j else row for k, row in enumerate(rows)]
         return None
 
