@@ -47,6 +47,16 @@ def test_a_motion_of_first_order_only_is_no_self_motion():
     assert classify_at(paper, example.joints) == Status.parallel
 
 
+def test_postures_that_nearly_meet_another_are_no_self_motion():
+    """Dietmaier's forty are isolated; two are loose to five digits: a way along them moves the inputs."""
+    platform = assur.load("gough_stewart")
+    forty = platform.direct([1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071])
+    status = classify_at(platform, forty.joints[forty.exists])
+    assert len(status) == 40
+    assert Status.parallel in status
+    assert Status.self_motion not in status
+
+
 def test_a_regular_configuration_has_no_motion_at_all():
     paper = assur.load("zeng2019")
     assert has_finite_motion(paper, paper.home_values[None]).tolist() == [False]

@@ -83,6 +83,7 @@ def has_finite_motion(record: MechanismRecord, values: FloatArray) -> BoolArray:
     They do not prove what is false where several motions of first order meet: a basis of them is tried, no sums.
     """
     ways, speeds = _loose_ways(record, values)  # (d, N, n), (d, N)
+    inputs = list(record.input_indices)
     start = frames(record, values)[record.platform.link]
     moves = np.zeros(len(values), dtype=bool)
     for way, speed in zip(ways, speeds, strict=True):
@@ -91,7 +92,9 @@ def has_finite_motion(record: MechanismRecord, values: FloatArray) -> BoolArray:
             for step in STEPS:
                 if not np.any(held):
                     break
-                trial = assemble(record, values[held] + sense * step * way[held], held=record.input_indices)
+                begun = values[held] + sense * step * way[held]
+                begun[:, inputs] = values[held][:, inputs]  # a way that is loose at first order nearly may move them
+                trial = assemble(record, begun, held=inputs)
                 away = _distance(record, start, frames(record, trial.values)[record.platform.link], held)
                 held[held] = trial.closed & (away > 0.5 * step * speed[held]) & (away < 2.0 * step * speed[held])
             moves |= held
