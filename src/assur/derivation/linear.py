@@ -172,6 +172,8 @@ def divided(row: Form) -> Form:
 def sparse(forms: Sequence[Form], witness: ModularWitness, everywhere: bool = False) -> list[Form]:
     """Equations of the same span with few unknowns each: pairs are combined as long as that shortens one of them.
 
+    Nothing is divided by a sum that may vanish, as a difference of two dimensions does in some other machine.
+
     Args:
         forms: the equations.
         witness: tells what vanishes.
@@ -201,7 +203,7 @@ def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -
                 if count > size or (count == size and length + _size(other)[1] > LONG):
                     continue
                 share = tidy(-form[key] / other[key])
-                if everywhere and not never_zero(share):
+                if not never_zero(share) and (everywhere or tidy(other[key]).is_Add):
                     continue
                 changed = combined(form, share, other, witness)
                 if _size(changed) < _size(form):
