@@ -20,6 +20,7 @@ def few_nodes():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("assur.figures.index_maps.NODES", 9)
         patch.setattr("assur.figures.indices.NODES", 20)
+        patch.setattr("assur.figures.force_maps.NODES", 9)
         yield
 
 

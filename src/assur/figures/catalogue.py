@@ -13,9 +13,12 @@ from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
 from assur.figures.encode import FORMATS, encoded
 from assur.figures.flow import FLOW
+from assur.figures.force_maps import FORCE_MAPS
+from assur.figures.force_polytope import FORCE_POLYTOPE
 from assur.figures.graph import GRAPH
 from assur.figures.index_maps import INDEX_MAPS
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION
+from assur.figures.joint_forces import JOINT_FORCES
 from assur.figures.model import MODEL
 from assur.figures.parasitic import PARASITIC
 from assur.figures.planes import PLANES_FIGURE
@@ -54,6 +57,9 @@ ENTRIES: tuple[FigureKind, ...] = (
     TRANSMISSION,
     MANIPULABILITY,
     INDEX_MAPS,
+    JOINT_FORCES,
+    FORCE_POLYTOPE,
+    FORCE_MAPS,
     GRAPH,
 )
 COMPARE = "Compare Figure {} of the source."
@@ -66,7 +72,7 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
     ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
      'aspects', 'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'indices',
-     'graph']
+     'reactions', 'polytope', 'forces', 'graph']
     """
     shared = context or Context(record)
     return [_spec(shared, entry) for entry in _present(shared)]

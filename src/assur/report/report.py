@@ -19,6 +19,7 @@ from assur.report.sections.aspects import aspects
 from assur.report.sections.auditing import auditing
 from assur.report.sections.basis import basis
 from assur.report.sections.description import description
+from assur.report.sections.forces import forces
 from assur.report.sections.performance import performance
 from assur.report.sections.position import position
 from assur.report.sections.provenance import provenance
@@ -44,6 +45,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
     ("Workspace", reach),
     ("Aspects", aspects),
     ("Dexterity", performance),
+    ("Forces", forces),
     ("Audit of the source", auditing),
     (KNOWN, basis),
     ("Sources and versions", provenance),
