@@ -20,6 +20,7 @@ COMMANDS = (
         "stiffness",
         "errors",
         "identify",
+        "calibrate",
         "dynamics",
     ),
     *("aspects", "derive", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),

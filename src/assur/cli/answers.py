@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from assur.audit.rows import Audit
+from assur.results.answers.calibration import CalibrationAnswer
 from assur.results.answers.catalogue import CatalogueAnswer, MechanismAnswer, SchemaAnswer
 from assur.results.answers.certificate import (
     NoCertificate,
@@ -50,6 +51,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "aspects": (AspectsAnswer, AspectsOfModes),
     "audit": (Audit,),
     "cache": (CacheAnswer,),
+    "calibrate": (CalibrationAnswer,),
     "certify": (WrittenCertificate, NoCertificate),
     "check": (CheckAnswer,),
     "collisions": (CollisionsAnswer,),

@@ -30,7 +30,7 @@ GROUPS = {
     "Topology": ("topology", "synthesize"),
     "Position": ("direct", "inverse", "derive", "follow", "sweep"),
     "Singularity, workspace, quality": ("singularity", "workspace", "aspects", "indices"),
-    "Forces": ("forces", "dynamics", "stiffness", "errors", "identify"),
+    "Forces": ("forces", "dynamics", "stiffness", "errors", "identify", "calibrate"),
     "See it move": ("page", "view", "motion"),
     "Draw, write, build": ("figures", "report", "export", "collisions"),
     "Prove and check": ("certify", "verify", "crosscheck", "audit", "doctor", "cache", "demo"),

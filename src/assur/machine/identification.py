@@ -68,13 +68,12 @@ class Identification:
     @property
     def rank(self) -> int:
         """How many combinations of the parameters the poses tell."""
-        sizes, _ = self._parts
-        return int(np.sum(sizes > RANK * sizes[0])) if len(sizes) and sizes[0] > 0 else 0
+        return matrix_rank(self._parts[0])
 
     @cached_property
     def unidentifiable(self) -> tuple[Unidentifiable, ...]:
         """A basis of what they do not tell, of as few parameters each as elimination finds."""
-        rows = _reduced(self._parts[1][self.rank :])
+        rows, _ = reduced(self._parts[1][self.rank :])
         rows = rows * self.scales
         kept = []
         for row in rows:
@@ -201,8 +200,13 @@ def random_poses(record: MechanismRecord, count: int, mode: str | None = None, s
     raise UsageError(f"{record.name}: {len(kept)} of {count} poses are met", hint="give poses in a file: --poses FILE")
 
 
-def _reduced(rows: FloatArray) -> FloatArray:
-    """The same span of rows, by elimination from the last columns: as many zeros as that makes."""
+def matrix_rank(sizes: FloatArray) -> int:
+    """How many singular values count."""
+    return int(np.sum(sizes > RANK * sizes[0])) if len(sizes) and sizes[0] > 0 else 0
+
+
+def reduced(rows: FloatArray) -> tuple[FloatArray, list[int]]:
+    """The same span of rows, by elimination from the last columns, and these: each has a one in one row alone."""
     own = rows.copy()
     used: list[int] = []
     for row in range(len(own)):
@@ -215,7 +219,7 @@ def _reduced(rows: FloatArray) -> FloatArray:
         own[row] /= own[row, column]
         others = np.arange(len(own)) != row
         own[others] -= np.outer(own[others, column], own[row])
-    return own[::-1]
+    return own[::-1], used
 
 
 def _words(combination: Mapping[str, float]) -> str:

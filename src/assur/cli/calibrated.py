@@ -1,0 +1,122 @@
+"""A calibration as data, as a file and as a person reads it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import RenderableType
+
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.paths import output_file
+from assur.errors import UsageError
+from assur.kinematics.answers.at_border import mechanism_header
+from assur.machine.calibration import calibration
+from assur.mechanism import Mechanism
+from assur.model.mechanism import Input
+from assur.results.answers.calibration import CalibrationAnswer
+from assur.results.files import write_whole
+from assur.results.plain_text import short
+
+
+def outcome(
+    record: Mechanism,
+    inputs: NDArray[np.float64],
+    names: Sequence[str],
+    measured: NDArray[np.float64],
+    hold: Sequence[str],
+    output: str | None,
+) -> Outcome:
+    """The best fit of measured lengths (N, k) at inputs (N, n), in lengths and rad."""
+    written = None if output is None else output_file(output, (".toml",))
+    own = calibration(record, inputs, names, measured, hold)
+    if written is not None:
+        text = record.file.read_text(encoding="utf-8")
+        write_whole(written, changed(record, text, own.parameters))
+    answer = CalibrationAnswer(
+        **mechanism_header(record),
+        measurements=len(measured),
+        measured=tuple(names),
+        parameters=own.parameters,
+        sigma=own.sigma,
+        held=own.held,
+        residual_before=own.before,
+        residual_after=own.after,
+        outliers=own.outliers,
+        file=None if written is None else str(written),
+        units={
+            "parameters": f"dimensions in their units; added to inputs in {record.unit} or rad",
+            "sigma": "as parameters",
+            "residual_before": record.unit,
+            "residual_after": record.unit,
+        },
+    )
+    return Outcome(answer, lambda: _shown(record, answer))
+
+
+def changed(record: Mechanism, text: str, parameters: Mapping[str, float]) -> str:
+    """The text of a mechanism's file with other numbers of dimensions, and offsets of inputs.
+
+    Errors:
+        UsageError: a number that does not stand on a line of its own table, as one that is a formula.
+    """
+    for name, value in parameters.items():
+        if name in record.parameters:
+            text = _replaced(text, "parameters", name, "value", value)
+    for item in record.inputs:
+        if parameters.get(item.name):
+            label = record.coordinate_label(item.coordinate)
+            text = _replaced(text, "inputs", label, "offset", _offset(record, item, parameters[item.name]))
+    return text
+
+
+def _offset(record: Mechanism, own: Input, added: float) -> float:
+    """The offset of an input to whose readings something is to be added, as the file writes it."""
+    unit = record.angle_unit if own.coordinate.kind == "angle" else 1.0
+    return (own.offset - added) / unit
+
+
+def _replaced(text: str, title: str, name: str, key: str, value: float) -> str:
+    """The text with another number of a key in an entry that stands on one line of a table."""
+    start = re.search(rf"^\[{title}\]", text, re.MULTILINE)
+    first = start.end() if start else len(text)
+    end = re.search(r"^\[", text[first:], re.MULTILINE)
+    table_text = text[first : first + end.start()] if end else text[first:]
+    line = re.search(rf"^\s*[\"']?{re.escape(name)}[\"']?\s*=\s*\{{.*$", table_text, re.MULTILINE)
+    hint = f"add --hold {name}, or leave -o out"
+    if line is None:
+        raise UsageError(f"{name} is not on a line of [{title}]: no file is written", hint=hint)
+    old = line.group()
+    number = re.search(rf"\b{key}\s*=\s*([-+.\deE_]+)(?=\s*[,}}])", old)
+    if number is not None:
+        new = old[: number.start(1)] + repr(value) + old[number.end(1) :]
+    elif re.search(rf"\b{key}\s*=", old):
+        raise UsageError(f"{name}: its {key} is a formula: no file is written", hint=hint)
+    else:
+        brace = old.rindex("}", 0, old.index("#") if "#" in old else len(old))
+        new = f"{old[:brace].rstrip()}, {key} = {value!r} {old[brace:]}"
+    return text[: first + line.start()] + new + text[first + line.end() :]
+
+
+def _shown(record: Mechanism, answer: CalibrationAnswer) -> Iterable[RenderableType]:
+    yield heading(f"{answer.mechanism}, calibration")
+    yield f"{answer.measurements} measurements of {', '.join(answer.measured)}"
+    yield ""
+    rows = []
+    for name, value in answer.parameters.items():
+        known = record.parameters.get(name)
+        was = short(known.value) if known else "added to the input"
+        rows.append((name, was, f"{value:.9g}", short(answer.sigma[name])))
+    yield table(("parameter", "was", "is", "sigma"), rows, left=("parameter",))
+    if answer.held:
+        yield f"held: {', '.join(answer.held)}"
+    before, after = short(answer.residual_before), short(answer.residual_after)
+    yield f"root of the mean square: {before} before, {after} {answer.unit} after"
+    if answer.outliers:
+        yield f"left out, far beside the others: measurements {', '.join(map(str, answer.outliers))}"
+    if answer.file is not None:
+        yield f"written: {Path(answer.file)}"
