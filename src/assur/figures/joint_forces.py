@@ -113,15 +113,15 @@ def _place(skeleton: Skeleton, name: str) -> FloatArray:
 
 
 def _draw_force(
-    page: Canvas, view: View, item: JointReaction, ends: tuple[FloatArray, FloatArray], largest: float
+    page: Canvas, view: View, reaction: JointReaction, ends: tuple[FloatArray, FloatArray], largest: float
 ) -> None:
-    sure = bool(item.unique[:3].all())
+    sure = bool(reaction.unique[:3].all())
     start, end = (view(place) for place in ends)
     if not sure:
         disc = Circle((start[0], start[1]), DISC / 2, facecolor=PAPER, edgecolor=INK, linewidth=0.5, zorder=11)
         disc.set_hatch("/" * 9)
         page.axes.add_patch(disc)
-    if np.linalg.norm(item.force) >= SMALLEST * largest > 0.0:
+    if np.linalg.norm(reaction.force) >= SMALLEST * largest > 0.0:
         page.arrow(start, end, RED, 1.1, 12.0, head=7.0, linestyle="-" if sure else (0, (2.5, 1.5)))
 
 
