@@ -155,3 +155,14 @@ def test_a_map_of_what_is_none_is_refused(assur_cli, words, said):
     run = assur_cli("forces", "fivebar", *words)
     assert run.code == 2
     assert said in run.err
+
+
+def test_the_equation_of_motion_is_written_after_it_was_held_against_numbers(assur_cli, tmp_path):
+    path = tmp_path / "motion.tex"
+    run = assur_cli("forces", "fivebar", "--latex", str(path), "--json")
+    assert (run.code, run.json["written"]) == (0, str(path))
+    assert run.json["difference"] < 1e-10
+    assert r"\mathbf{M}_{11} &=" in path.read_text(encoding="utf-8")
+    assert "they differ by" in assur_cli("forces", "fivebar", "--latex", str(path)).out
+    alone = assur_cli("forces", "fivebar", "--latex", str(path), "--pose", "0", "200")
+    assert (alone.code, "stands alone" in alone.err) == (2, True)

@@ -40,31 +40,31 @@ class Reader:
                 total = np.cross(total, self.power())
             elif self.take(r"\\cdot"):
                 total = np.dot(total, self.power())
-            elif re.match(r"(?:\s|\\,)*(?:$|[-+)}|,])", self.left):
+            elif re.match(r"(?:\s|\\,)*(?:$|[-+)}|,]|\\right)", self.left):
                 return total
             else:
                 total = total * self.power()
 
     def power(self):
         base = self.factor()
-        if match := self.take(r"\^\{(\d+)(?:/(\d+))?\}"):
+        if match := self.take(r"\^\{(-?\d+)(?:/(\d+))?\}"):
             power = int(match[1]) / int(match[2] or 1)
             return np.dot(base, base) if np.ndim(base) else base**power
         return base
 
     def factor(self):
-        if match := self.take(r"\d+"):
+        if match := self.take(r"\d+(?:\.\d+)?"):
             return float(match[0])
         if self.take(r"\\frac"):
             above, below = self.group(), self.group()
             return above / below
         if self.take(r"\\sqrt"):
             return math.sqrt(self.group())
-        if match := self.take(r"[(|]"):
+        if match := self.take(r"(?:\\left)?[(|]"):
             parts = [self.sum()]
             while self.take(","):
                 parts.append(self.sum())
-            assert self.take(r"[)|]")
+            assert self.take(r"(?:\\right)?[)|]")
             return parts[0] if len(parts) == 1 else np.array(parts)
         if match := self.take(r"\\(cos|sin)(?:\^\{(\d+)\})?\s*"):
             return self.letter()[match[1] == "sin"] ** int(match[2] or 1)

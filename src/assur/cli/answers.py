@@ -26,7 +26,7 @@ from assur.results.answers.files import (
     WrittenPage,
     WrittenReport,
 )
-from assur.results.answers.forces import CapacityAnswer, ForcesAnswer
+from assur.results.answers.forces import CapacityAnswer, ForcesAnswer, MotionFormulasAnswer
 from assur.results.answers.identification import IdentificationAnswer
 from assur.results.answers.indices import IndicesAnswer, MapsAnswer, OverallAnswer
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
@@ -65,7 +65,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),
-    "forces": (ForcesAnswer, CapacityAnswer, MapsAnswer),
+    "forces": (ForcesAnswer, CapacityAnswer, MapsAnswer, MotionFormulasAnswer),
     "identify": (IdentificationAnswer,),
     "indices": (IndicesAnswer, OverallAnswer, MapsAnswer),
     "inverse": (InverseAnswer, CertifiedInverse),

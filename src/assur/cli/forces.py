@@ -45,6 +45,10 @@ def forces(
             help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
         ),
     ] = None,
+    latex: Annotated[
+        str | None,
+        Parameter(metavar="FILE", help="Write mass matrix, gravity and rates of the inputs as formulas, for pdflatex."),
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Forces of the actuators and reactions in the joints at a pose.
@@ -58,13 +62,15 @@ def forces(
     the file's units; `--json` is in SI units. Exit code 2: a mass that is needed
     is not in the file. 4: the mode does not reach the pose. With --capacity:
     which forces on the platform the actuators hold at rest, at a pose or, with
-    --map, over the workspace, and how fast they move the platform.
+    --map, over the workspace, and how fast they move the platform. With --latex:
+    the equation of motion in formulas of the pose, by the closed form.
 
     For example:
         assur forces zeng2019 --pose -15.4714 9.6849 456.3315 --load 0,0,-100
         assur forces delta_4s --pose 0 0 -0.9 --velocity 1 0 0 --acceleration 20 0 0
         assur forces delta_4s --capacity --pose 0 0 -0.9
         assur forces delta_4s --capacity --map x,z --at y=0 -o held.png
+        assur forces zeng2019 --latex motion.tex
     """
     record = shared.mechanism(mechanism)
     from assur.cli import forced
@@ -74,6 +80,12 @@ def forces(
     from assur.model.pose import rate_names
 
     mode = mode or record.modes.default_working
+    if latex is not None:
+        if pose or capacity or load is not None or velocity or acceleration:
+            raise UsageError("--latex stands alone: formulas hold for every pose", hint="with --mode, if at all")
+        from assur.cli import motion_written
+
+        return motion_written.outcome(record, mode, latex)
     if capacity and (load is not None or no_gravity or velocity or acceleration):
         raise UsageError("--capacity: at rest under gravity", hint="leave out --load, --no-gravity and motions")
     if plane is not None:

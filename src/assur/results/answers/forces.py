@@ -102,3 +102,13 @@ class CapacityAnswer(AnswerOfMechanism):
     polytope_vertices: tuple[Numbers, ...]
     notes: tuple[str, ...]
     units: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class MotionFormulasAnswer(AnswerOfMechanism):
+    """The equation of motion written as LaTeX; `difference` is the largest by which its numbers are off, as a share."""
+
+    mode: str
+    operations: int
+    difference: float
+    written: str
