@@ -2,6 +2,7 @@
 
 import pytest
 
+from assur.derived_topology import topology
 from assur.topology.characteristics import characteristics
 from catalogue import topology_of
 
@@ -47,3 +48,9 @@ def test_rows_of_other_mechanisms(name, row, said):
 def test_what_says_nothing_is_left_out():
     assert not {"relaxed", "conditions"} & {row for row, text in rows_of("three_rps").items() if not text}
     assert "relaxed" not in rows_of("gough_stewart")
+
+
+def test_a_shaky_mechanism_has_no_row_that_nothing_is_known_of():
+    rows = dict(characteristics(topology(["C[z] C[1,0,2]", "C[x] C[1,0,2]"])))
+    assert not {"parasitic", "conditions", "relaxed", "Assur chains"} & set(rows)
+    assert rows["passive"] == "C2, C3"

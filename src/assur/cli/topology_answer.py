@@ -149,7 +149,8 @@ def _modes(modes: tuple[MetMode, ...], say: Said) -> Iterator[RenderableType]:
 def _title(topology: Topology) -> str:
     """The name and the title; of chains that have none, how many they are."""
     parts = [part for part in (topology.name, topology.title) if part]
-    return ": ".join(parts) or ("one chain" if len(topology.limbs) == 1 else f"{len(topology.limbs)} limbs")
+    count_of_limbs = {0: "a joint graph without limbs", 1: "one chain"}.get(len(topology.limbs))
+    return ": ".join(parts) or count_of_limbs or f"{len(topology.limbs)} limbs"
 
 
 def _characteristics(topology: Topology, say: Said) -> Iterator[str]:

@@ -24,7 +24,7 @@ from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jac
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.freedom_type import freedom_type
-from assur.topology.counting.mobility import Mobility, mobility, motions
+from assur.topology.counting.mobility import Mobility, driven_joints, mobility, motions, passive_joints
 from assur.topology.counting.parasitic import parasitic_elements
 from assur.topology.counting.redundant_drives import DeterminingDrives, determining_drives, driven_by
 from assur.topology.counting.relaxation import relaxation
@@ -200,10 +200,8 @@ def analyse(
         notes=(_met_at_home(modes),) if home.special or home.is_branch_point else (),
         derive=rules.derivations,
         actuate=asked,
-        passive_joints=tuple(
-            edge.name for edge in home.collapsed if not edge.inputs and edge.name not in collapsed.idle
-        ),
-        alike=alike_limbs(chains or (), [edge.name for edge in home.collapsed if edge.inputs]),
+        passive_joints=passive_joints(home.collapsed, collapsed),
+        alike=alike_limbs(chains or (), driven_joints(home.collapsed)),
         relax=partial(relaxation, home.joints, base, platform),
         count_parasitic=partial(parasitic_elements, linkage, home.values, home.space),
         break_conditions=partial(needed_conditions, chains or (), (collapsed.dof, home.poc), held_in(linkage, mode)),

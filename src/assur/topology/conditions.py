@@ -1,7 +1,8 @@
 """Geometric conditions of a mechanism that its motion needs: which axes are parallel, at right angles, and which meet.
 
 Each is broken in turn, all else as it is: one axis is turned away, or the parallel axes of a limb together, or a common
-point is given up. Where F and the POC set stay what they were, the condition is an accident of how the limbs are drawn.
+point is given up. Where F and t, r, dim of the POC set stay what they were, the condition is an accident of how the
+limbs are drawn.
 """
 
 from __future__ import annotations

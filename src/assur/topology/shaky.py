@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from assur.results.answers.topology import OperationModeFacts, RedundantConstraints, Relaxation
 from assur.results.plain_text import count as plural
+from assur.topology.alike import alike_limbs
 from assur.topology.analysis import (
     ADMISSIBLE,
     Sample,
@@ -31,7 +32,7 @@ from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.drives import admissible_drives
-from assur.topology.counting.mobility import mobility, motions
+from assur.topology.counting.mobility import driven_joints, mobility, motions, passive_joints
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import InputsBy, Known, Topology
 from assur.topology.poc import PocSet
@@ -112,6 +113,8 @@ def analyse_shaky(
         decoupling_refusal=reason,
         plan=SolutionPlan((), shaky=reason),
         linkage=linkage,
+        passive_joints=passive_joints(collapsed, moving),
+        alike=alike_limbs(chains or (), driven_joints(collapsed)),
         modes=(OperationModeFacts(motion.freedoms, *motion.poc, False, str(poc)),),
         notes=tuple(notes),
         derive=rules.derivations,

@@ -220,3 +220,13 @@ def _components(together: NDArray[np.bool_]) -> NDArray[np.intp]:
     while np.any((least := np.min(np.where(together, labels, len(labels)), axis=1)) < labels):
         labels = least
     return labels
+
+
+def driven_joints(edges: Sequence[Edge]) -> tuple[str, ...]:
+    """Names of the joints of which a freedom is driven."""
+    return tuple(edge.name for edge in edges if edge.inputs)
+
+
+def passive_joints(edges: Sequence[Edge], mobility: Mobility) -> tuple[str, ...]:
+    """Names of the joints that move and are not driven."""
+    return tuple(edge.name for edge in edges if not edge.inputs and edge.name not in mobility.idle)
