@@ -31,7 +31,7 @@ def test_the_header_says_what_next():
 
 def test_a_name_may_be_its_beginning():
     assert in_catalogue("zeng") == "zeng2019"
-    assert in_catalogue("three_p") == "three_p2us"
+    assert in_catalogue("three_p2") == "three_p2us"
 
 
 @pytest.mark.parametrize(("name", "hint"), [("three_", "did you mean three_"), ("zneg2019", "zeng2019"), ("", "")])
