@@ -1,5 +1,7 @@
 """Formulas of motion: against numbers that know no closed form, at other poses than those that simplified them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -40,3 +42,9 @@ def test_the_bias_follows_from_the_mass_matrix():
 def test_what_has_no_formulas_is_told(name, said):
     with pytest.raises(UsageError, match=said):
         motion_formulas(load_record(name))
+
+
+def test_a_file_without_a_box_is_told_to_have_one():
+    record = replace(load_record("fivebar"), box={})
+    with pytest.raises(UsageError, match="no box of x, y"):
+        motion_formulas(record)

@@ -108,6 +108,9 @@ def difference(formulas: MotionFormulas) -> float:
 def _refuse(record: MechanismRecord) -> None:
     name, pivots = record.name, graph_pivots(record)
     closed_form_of(record)
+    all_masses(record)
+    if lacking := [own for own in record.platform.pose if own not in record.box]:
+        raise UsageError(f"{name}: no box of {', '.join(lacking)} to compare numbers in", hint="say it in [workspace]")
     if not set(record.platform.pose) <= set(LENGTHS):
         raise UsageError(f"{name}: formulas of motion are written for poses of lengths alone")
     if any(joint.type.ball for joint in record.joints.values()) or pivots is None or pivots.idle:
