@@ -94,6 +94,28 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
     assert assur.topology(written[1]).redundant_constraints.collapsed == 3
 
 
+def test_limbs_without_passive_slides_are_kept_where_asked(assur_cli):
+    every, some = (assur_cli("synthesize", *SMALL, *words, "--json").json for words in ((), ("--no-passive-p",)))
+    assert 0 < some["limb_types"]["with_motion"] < every["limb_types"]["with_motion"]
+    for mechanism in some["mechanisms"]:
+        for number, chain in enumerate(mechanism["chains"], 1):
+            letters = re.findall(r"P\(\w+\)|[A-Z](?=\[)|S", chain)
+            driven = {actuated for actuated in mechanism["actuate"] if actuated.startswith(f"{number}.")}
+            assert {f"{number}.{place}" for place, letter in enumerate(letters, 1) if letter == "P"} <= driven
+    said = assur_cli("synthesize", *SMALL, "--no-passive-p", "--explain", *("C[x] P[y] R[x]",) * 3).out
+    assert "it has a P that nothing drives" in " ".join(said.split())
+
+
+def test_chosen_mechanisms_are_drafted_with_what_solves_them(assur_cli, tmp_path):
+    words = ("synthesize", "--motion", "2T1R", "--max-joints", "3", "--symmetric", "--top", "1")
+    run = assur_cli(*words, "--draft", str(tmp_path / "chosen"), "--json")
+    (draft,) = run.json["drafts"]
+    assert (draft["rank"], draft["refusal"]) == (1, "")
+    assert draft["inverse"].startswith("square roots")
+    drafted = assur.topology(assur.load(draft["file"]))
+    assert (drafted.dof, len(drafted.limbs)) == (3, len(run.json["mechanisms"][0]["chains"]))
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

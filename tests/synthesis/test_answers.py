@@ -19,6 +19,7 @@ def test_answers_are_plain_data(small):
         "max_members": 20,
         "parasitic": False,
         "idle": False,
+        "passive_slides": True,
     }
     assert data["found"] == len(data["mechanisms"]) == len(small.designs)
     assert data["limb_types"]["with_motion"] == sum(data["limb_types"]["by_poc"].values()) == len(small.limbs)

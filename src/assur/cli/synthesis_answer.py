@@ -12,7 +12,7 @@ from rich.console import RenderableType
 from assur.cli.output import heading, table
 from assur.cli.topology_answer import shortened
 from assur.results.answers.answer import ABSENT
-from assur.results.answers.topology import ExplanationAnswer, SynthesisAnswer
+from assur.results.answers.topology import DesignDraft, ExplanationAnswer, SynthesisAnswer
 from assur.synthesis.designs import Design
 from assur.synthesis.synthesis import Synthesis
 from assur.topology.poc import PocSet
@@ -73,9 +73,22 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
         yield ""
         yield heading("known mechanisms with these limbs")
         yield _known(known, "family" if synthesis.asked.by_families else "rank")
+    if data.drafts is not ABSENT:
+        yield ""
+        yield heading("drafted")
+        yield from (line for draft in data.drafts for line in _draft(draft))
     if data.written is not ABSENT:
         yield ""
         yield f"written: {len(data.written)} files in {folder}"
+
+
+def _draft(draft: DesignDraft) -> Iterator[str]:
+    if draft.file is None:
+        yield f"rank {draft.rank}: no draft; {draft.refusal}"
+        return
+    yield f"rank {draft.rank}: {draft.file}"
+    yield f"  direct problem: {draft.direct}"
+    yield f"  inverse problem: {draft.inverse}"
 
 
 def _families(synthesis: Synthesis, data: SynthesisAnswer, top: int) -> RenderableType:

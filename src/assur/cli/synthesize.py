@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -15,6 +15,7 @@ from assur.cli.progress import progress
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
+    from assur.results.answers.topology import DesignDraft
     from assur.synthesis.limbs import Actuators
     from assur.synthesis.question import SynthesisQuestion
     from assur.synthesis.synthesis import Synthesis
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 MILLION = 1_000_000
 """Combinations that are looked at without a word; some take seconds, a hundred times as many hours."""
 
-SHOWN = 20
-"""Mechanisms in the table, and files, if nothing else is asked for."""
+SHOWN, DRAFTED = 20, 3
+"""Mechanisms in the table and topology files, and drafts, if nothing else is asked for."""
 
 
 def synthesize(
@@ -68,6 +69,14 @@ def synthesize(
             " chains, 3T:PPP and 3T1R:PPPR among them."
         ),
     ] = False,
+    passive_p: Annotated[
+        bool,
+        Parameter(
+            name="--passive-p",
+            negative="--no-passive-p",
+            help="Limbs may have P that nothing drives; they may if left out. A parallelogram is none.",
+        ),
+    ] = True,
     symmetric: Annotated[bool, Parameter(help="Only mechanisms of equal limbs.")] = False,
     actuators: Annotated[
         str,
@@ -98,6 +107,14 @@ def synthesize(
     toml: Annotated[
         str, Parameter(metavar="FOLDER", help="Write each as a topology file that `assur topology` reads.")
     ] = "",
+    draft: Annotated[
+        str,
+        Parameter(
+            metavar="FOLDER",
+            help="Write the best, one of each family, as mechanism files with dimensions and home, 3 without --top;"
+            " and say what solves them by formulas.",
+        ),
+    ] = "",
     shared: Plain = PLAIN,
 ) -> Outcome:
     """Find mechanisms with a wanted motion: type synthesis.
@@ -121,6 +138,7 @@ def synthesize(
         assur synthesize --motion 1T2R --parasitic --actuators leg --symmetric
         assur synthesize --motion 3R --symmetric
         assur synthesize --motion 1T2R:UP --top 5
+        assur synthesize --limbs 2 --coupling 0..1 --no-passive-p --draft found
         assur synthesize --limbs 2 --explain tripteron
         assur synthesize --motion 2T1R --explain "R[z] R[z] R[z]" "P[x] S" S
     """
@@ -134,6 +152,7 @@ def synthesize(
     joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
     folder = planned_folder(toml) if toml else None
+    drafts = planned_folder(draft) if draft else None
     if explain:
         asked = question(
             motion,
@@ -145,6 +164,7 @@ def synthesize(
             members=members,
             parasitic=parasitic,
             idle=idle,
+            passive_slides=passive_p,
         )
         if parasitic or asked.rows:
             raise UsageError("--explain knows no parasitic mechanisms, and none by virtual chains")
@@ -167,13 +187,14 @@ def synthesize(
                 members=members,
                 parasitic=parasitic,
                 idle=idle,
+                passive_slides=passive_p,
                 step=step,
                 most=most,
             )
         except TooManyError as error:
             hint = "ask for fewer joints or for --symmetric ones, or look at all of them with --yes"
             raise UsageError(error.message, hint=hint) from None
-    return _outcome(found, count, folder)
+    return _outcome(found, count, folder, drafts)
 
 
 def _explained(explain: Sequence[str], actuate: str, asked: SynthesisQuestion, shared: Plain) -> Outcome:
@@ -242,14 +263,36 @@ def _members(text: str) -> int:
     return count
 
 
-def _outcome(synthesis: Synthesis, top: int | None, folder: Path | None) -> Outcome:
+def _outcome(synthesis: Synthesis, top: int | None, folder: Path | None, drafts: Path | None = None) -> Outcome:
     from assur.cli.synthesis_answer import shown
     from assur.synthesis.answers import answers
 
     data = answers(synthesis, top)
     if folder is not None:
         data = replace(data, written=_write(synthesis, folder, top or SHOWN))
+    if drafts is not None:
+        data = replace(data, drafts=tuple(_drafted(synthesis, drafts, top or DRAFTED)))
     return Outcome(data, lambda: shown(synthesis, data, top or SHOWN, folder))
+
+
+def _drafted(synthesis: Synthesis, folder: Path, number: int) -> Iterator[DesignDraft]:
+    from assur.cli.paths import made
+    from assur.errors import AssurError
+    from assur.model.registry import load_record
+    from assur.results.answers.topology import DesignDraft
+    from assur.results.files import write_whole
+    from assur.synthesis.drafts import chosen, drafted_text, solved_by
+
+    made(folder)
+    for rank, design in chosen(synthesis, number):
+        path = folder / f"m{synthesis.asked.motion.name.lower()}_{rank}.toml"
+        try:
+            write_whole(path, drafted_text(design, path))
+        except AssurError as error:
+            yield DesignDraft(rank, None, error.message)
+            continue
+        record = load_record(path)
+        yield DesignDraft(rank, str(path), "", solved_by(record, "direct"), solved_by(record, "inverse"))
 
 
 def _write(synthesis: Synthesis, folder: Path, top: int) -> tuple[str, ...]:

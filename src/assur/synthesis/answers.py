@@ -107,6 +107,7 @@ def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
         asked.members,
         asked.parasitic,
         asked.idle,
+        asked.passive_slides,
     )
 
 

@@ -143,7 +143,10 @@ def _written(limb: DrivenLimb, asked: SynthesisQuestion) -> LimbType | str:
     types = (
         limb_types(motion, asked.max_joints, asked.actuators) if not loop else hybrid_types(motion, asked.max_joints)
     )
-    return {limb_type.key: limb_type for limb_type in types}.get(key) or _not_written(limb, asked, key)
+    written = {limb_type.key: limb_type for limb_type in types}.get(key)
+    if written and not asked.wants(written):
+        return "it has a P that nothing drives, and limbs without are asked for"
+    return written or _not_written(limb, asked, key)
 
 
 def _loops(motion: RequiredMotion) -> set[Key]:

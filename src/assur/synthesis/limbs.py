@@ -76,6 +76,12 @@ class LimbType:
         """Places of the driven freedoms among the freedoms of the limb; the translation of a C comes first."""
         return tuple(sum(joint.freedoms for joint in self.chain.joints[:place]) for place in self.driven)
 
+    @property
+    def passive_slides(self) -> int:
+        """Number of P that nothing drives; neither a C nor a parallelogram is one."""
+        rest = (joint for place, joint in enumerate(self.chain.joints) if place not in self.driven)
+        return sum(isinstance(joint, ChainJoint) and joint.type is PRISMATIC for joint in rest)
+
     @cached_property
     def parallelograms(self) -> int:
         """Number of parallelograms."""

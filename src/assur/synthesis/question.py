@@ -8,7 +8,7 @@ from typing import get_args
 
 from assur.errors import UnknownNameError, UsageError
 from assur.synthesis.assembly import MEMBERS
-from assur.synthesis.limbs import Actuators
+from assur.synthesis.limbs import Actuators, LimbType
 from assur.synthesis.required import MOTIONS, PARASITIC, RequiredMotion, motion_named
 from assur.synthesis.virtual_chains import VIRTUAL_CHAINS, VirtualChain, rows_named
 
@@ -30,6 +30,11 @@ class SynthesisQuestion:
     parasitic: bool = False
     rows: tuple[VirtualChain, ...] = ()
     idle: bool = False
+    passive_slides: bool = True
+
+    def wants(self, limb: LimbType) -> bool:
+        """Whether a limb is among those that are asked for, by its joints alone."""
+        return self.passive_slides or not limb.passive_slides
 
     @property
     def hybrid(self) -> bool:
@@ -53,6 +58,7 @@ def question(
     members: int = MEMBERS,
     parasitic: bool = False,
     idle: bool = False,
+    passive_slides: bool = True,
 ) -> SynthesisQuestion:
     """What is asked of a synthesis, by the arguments of `synthesis`.
 
@@ -97,4 +103,16 @@ def question(
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
     if members < 1:
         raise UsageError(f"{members} members of each family; one at least")
-    return SynthesisQuestion(target, number, max_joints, coupling, symmetric, actuators, members, parasitic, rows, idle)
+    return SynthesisQuestion(
+        motion=target,
+        limbs=number,
+        max_joints=max_joints,
+        coupling=coupling,
+        symmetric=symmetric,
+        actuators=actuators,
+        members=members,
+        parasitic=parasitic,
+        rows=rows,
+        idle=idle,
+        passive_slides=passive_slides,
+    )

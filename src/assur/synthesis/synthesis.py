@@ -73,6 +73,7 @@ def synthesis(
     members: int = MEMBERS,
     parasitic: bool = False,
     idle: bool = False,
+    passive_slides: bool = True,
     step: Step = ignored,
     most: int | None = None,
 ) -> Synthesis:
@@ -95,6 +96,7 @@ def synthesis(
         parasitic: the motion is that at home, and others come with it: by limbs of three joints at most, whose
             constraints at home leave it, and a finite motion of each mechanism that is listed. One limb more than the
             motion has freedoms is passive, and alone constrains the platform.
+        passive_slides: whether limbs may have P that nothing drives.
         idle: whether limbs that follow a virtual chain may have one R that stays at rest.
         step: called with (steps done, steps in all).
         most: combinations at most; any number where None.
@@ -119,6 +121,7 @@ def synthesis(
         members=members,
         parasitic=parasitic,
         idle=idle,
+        passive_slides=passive_slides,
     )
     return searched(asked, step, most)
 
@@ -178,6 +181,8 @@ def _refuse_more(most: int | None, count: int, types: int) -> None:
 def _parasitic(asked: SynthesisQuestion, step: Step, most: int | None) -> Synthesis:
     """Mechanisms whose motion at home is the one that is asked for."""
     classes_of_limbs = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.motion.dim)
+    asked_for = (tuple(limb for limb in some if asked.wants(limb.type)) for some in classes_of_limbs)
+    classes_of_limbs = tuple(some for some in asked_for if some)
     known = known_by_directions(asked.motion)
     sought = Sought(
         asked.motion, Range(*asked.coupling), (), asked.symmetric, asked.members, [one.key for one in known]
@@ -205,7 +210,8 @@ def _with_points(asked: SynthesisQuestion, step: Step, most: int | None, also: S
     try:
         for number, row in enumerate(asked.rows):
             step(number, len(asked.rows))
-            types = following_types(row, asked.max_joints, asked.actuators, idle=asked.idle)
+            every = following_types(row, asked.max_joints, asked.actuators, idle=asked.idle)
+            types = tuple(filter(asked.wants, every))
             limbs = following_limbs(row, types, asked.limbs)
             left_out["not the motion"] += len(types) - len(limbs)
             classes_of_limbs += classes_by_constraints(limbs, row)
@@ -267,6 +273,7 @@ def _limbs(asked: SynthesisQuestion, step: Step) -> tuple[list[CandidateLimb], C
     types = limb_types(asked.motion, asked.max_joints, asked.actuators)
     if asked.hybrid:
         types += hybrid_types(asked.motion, asked.max_joints)
+    types = tuple(filter(asked.wants, types))
     turns = positions(asked.motion, asked.limbs)
     verdicts: list[LimbVerdict] = []
     try:

@@ -369,6 +369,7 @@ class AskedSynthesis:
     max_members: int
     parasitic: bool
     idle: bool
+    passive_slides: bool
 
 
 @dataclass(frozen=True)
@@ -428,6 +429,25 @@ class DesignAnswer:
 
 
 @dataclass(frozen=True)
+class DesignDraft:
+    """A mechanism of a synthesis with dimensions.
+
+    Attributes:
+        rank: of the mechanism.
+        file: its mechanism file; null where no default dimensions have its topology.
+        refusal: why there is none, empty where there is one.
+        direct: what solves its direct problem; empty without a file.
+        inverse: the same of its inverse problem.
+    """
+
+    rank: int
+    file: str | None
+    refusal: str = ""
+    direct: str = ""
+    inverse: str = ""
+
+
+@dataclass(frozen=True)
 class DesignFamily:
     """Mechanisms whose limbs have the same motions, and inner loops that count alike.
 
@@ -469,7 +489,7 @@ class ExplanationAnswer(Answer):
 
 @dataclass(frozen=True)
 class SynthesisAnswer(Answer):
-    """The mechanisms with a motion, the best first, and their families; `written` are their files."""
+    """The mechanisms with a motion, the best first, and their families; `written` are their topology files."""
 
     asked: AskedSynthesis
     positions: str
@@ -479,3 +499,4 @@ class SynthesisAnswer(Answer):
     mechanisms: tuple[DesignAnswer, ...] = ()
     families: tuple[DesignFamily, ...] = ()
     written: Names | Absent = ABSENT
+    drafts: tuple[DesignDraft, ...] | Absent = ABSENT
