@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.rotations import about_axis
-from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members
+from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members, mechanism
 from assur.synthesis.classes import AMONG, Class, simplicity
 from assur.synthesis.designs import Design
 from assur.synthesis.home_constraints import constraints_of, home_twists, together
@@ -169,14 +169,16 @@ def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
         arranged: of whose constraints at home the motion is known.
         sought: what is asked of them; its placements do not matter.
     """
-    outcomes: list[Design | Rejected] = []
     equal = [limbs for limbs in arranged.simplest() if all(limb is limbs[0] for limb in limbs)]
     others = [] if sought.symmetric else [limbs for limbs in arranged.simplest()[:TRIES] if limbs not in equal]
+    known = [limbs for limbs in equal if mechanism(limbs) in sought.known]
+    named = [*known, *known_members(arranged.chosen, sought.known)]
+    rest = [limbs for limbs in [*equal, *others] if limbs not in named]
+    outcomes = [_outcome(limbs, arranged, sought) for limbs in named]
     most = len(equal) if sought.symmetric else sought.members
-    named = known_members(arranged.chosen, sought.known)
-    for limbs in {tuple(map(id, limbs)): limbs for limbs in [*named, *equal, *others]}.values():
-        listed = sum(isinstance(outcome, Design) for outcome in outcomes)
-        if listed >= most or len(outcomes) >= (TRIES if listed or sought.symmetric else BARREN):
+    for tried, limbs in enumerate(rest):
+        listed = sum(isinstance(outcome, Design) for outcome in outcomes[len(named) :])
+        if listed >= most or tried >= (TRIES if listed or sought.symmetric else BARREN):
             break
         outcomes.append(_outcome(limbs, arranged, sought))
     designs = sorted((outcome for outcome in outcomes if isinstance(outcome, Design)), key=lambda design: design.order)
