@@ -45,6 +45,16 @@ def test_mean_squares_of_a_sine_and_shares_of_limits(zeng):
     assert shares.force[0] < rubbing.force[0] <= shares.force[0] + 0.2 + 1e-12
 
 
+def test_rods_that_weigh_on_their_axes_leave_nothing_open():
+    delta = assur.load("delta_4s")
+    around = harmonic(delta, [0, 0, -0.9], [0.1, 0, 0], 6.0, count=4)
+    assert not delta.dynamics(around).spins_open
+    rods = {name: replace(link, profile=None, mass=0.1, centre=np.array([0.01, 0.0, -0.6])) if "rod" in name else link
+            for name, link in delta.machine.links.items()}  # fmt: skip
+    beside = assur.Mechanism(**vars(replace(delta, machine=replace(delta.machine, links=rods))))
+    assert beside.dynamics(around).spins_open
+
+
 def test_standing_still_is_statics(zeng):
     pose = [-15.4714, 9.6849, 456.3315]
     answer = zeng.dynamics(sampled(zeng, np.arange(5.0), [pose] * 5), load=[0, 0, -100])

@@ -16,15 +16,19 @@ from assur.kinematics.border import checked_poses, drives_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
 from assur.machine.departure import Departure
+from assur.machine.equation_of_motion import EquationOfMotion
 from assur.machine.followed_motion import followed_motion
 from assur.machine.forces import ActuatorForces, force_units, forces_at
 from assur.machine.loads import load_of
+from assur.machine.masses import all_masses
 from assur.machine.prescribed_motion import PrescribedMotion
 from assur.machine.utilisation import Utilisation, peak, rms, utilisation
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
+BALANCED = 1e-7
+"""Share of the largest weight per joint rate below which that per spin is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +89,16 @@ class MotionForces:
     def potential_energy(self) -> FloatArray:
         """(N,) in J."""
         return np.empty(0) if self.answer is None else self.answer.potential_energy
+
+    @cached_property
+    def spins_open(self) -> bool:
+        """Whether nothing drives the spin of rods that weigh beside their axes, so that forces depend on it."""
+        if self.answer is None:
+            return False
+        equation = EquationOfMotion(self.record, all_masses(self.record), self.answer.load)
+        motion = equation.motion(self.answer.values[:1])
+        pulled = np.einsum("nji,nj->ni", motion.idle, motion.inertia.weight)
+        return bool(np.abs(pulled).max() > BALANCED * np.abs(motion.inertia.weight).max())
 
     @property
     def peak(self) -> FloatArray:
