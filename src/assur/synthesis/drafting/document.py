@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -16,6 +17,13 @@ from assur.topology.directions import Vector
 from assur.topology.notation.brackets import direction_text
 
 HOME = "near home, as drawn"
+ROOTS = {
+    "sqrt(3)/2": math.sqrt(3) / 2, "sqrt(2)/2": math.sqrt(2) / 2, "sqrt(3)/3": math.sqrt(3) / 3,
+    "sqrt(6)/3": math.sqrt(6) / 3, "sqrt(6)/6": math.sqrt(6) / 6,
+}  # fmt: skip
+"""Components of directions that are written as roots."""
+SAME = 1e-14
+"""Within which they are these."""
 
 
 @dataclass(frozen=True)
@@ -186,9 +194,21 @@ def axis_text(axis: Vector) -> str:
 
     >>> axis_text((0.0, -1.0, 0.0)), axis_text((0.6, 0.0, 0.8))
     ('"-y"', '[0.6, 0, 0.8]')
+    >>> axis_text((-0.8660254037844386, -0.5, 0.0))
+    '["-sqrt(3)/2", -0.5, 0]'
     """
     text = direction_text(axis)
-    return f'"{text}"' if text.strip("-") in AXES else f"[{', '.join(text.split(','))}]"
+    if text.strip("-") in AXES:
+        return f'"{text}"'
+    return f"[{', '.join(_root_text(part, own) for part, own in zip(axis, text.split(','), strict=True))}]"
+
+
+def _root_text(number: float, text: str) -> str:
+    """A number by the root that it is to all digits, so that the file's loops close exactly; else as it is."""
+    for formula, root in ROOTS.items():
+        if abs(abs(number) - root) < SAME:
+            return f'"{"-" if number < 0 else ""}{formula}"'
+    return text
 
 
 def point_text(point: Point) -> str:
