@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
 from itertools import combinations
 
 import sympy
@@ -82,9 +83,10 @@ def solved(
     """
     left = [form for form in forms if form]
     values: dict[sympy.Symbol, Form] = {}
+    costs: dict[sympy.Expr, tuple[int, int]] = {}
     while True:
         pivots = [
-            (_cost(form, key, witness), k, key)
+            ((*_cost(form[key], witness, costs), len(form)), k, key)
             for k, form in enumerate(left)
             for key in unknowns
             if key in form and not form[key].free_symbols & {*turning}
@@ -229,15 +231,17 @@ def _size(form: Form) -> tuple[int, int]:
     return len(form.keys() - {ONE}), sum(int(sympy.count_ops(part)) for part in form.values())
 
 
-def _cost(form: Form, key: sympy.Symbol, witness: ModularWitness) -> tuple[int, int, int]:
-    """Numbers are divided by first, then what never vanishes, then what does not at home; short forms first."""
-    pivot = form[key]
-    known = pivot.free_symbols <= witness.home.keys()
-    there = known and abs(witness.at_home(pivot)) > VANISHED
-    sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if there else 3
-    return sure, int(sympy.count_ops(pivot)), len(form)
+def _cost(pivot: sympy.Expr, witness: ModularWitness, known: dict[sympy.Expr, tuple[int, int]]) -> tuple[int, int]:
+    """Numbers are divided by first, then what never vanishes, then what does not at home; short ones first."""
+    if pivot not in known:
+        at_home = pivot.free_symbols <= witness.home.keys()
+        there = at_home and abs(witness.at_home(pivot)) > VANISHED
+        sure = 0 if pivot.is_number else 1 if never_zero(pivot) else 2 if there else 3
+        known[pivot] = sure, int(sympy.count_ops(pivot))
+    return known[pivot]
 
 
+@lru_cache(maxsize=4096)
 def never_zero(formula: sympy.Expr) -> bool:
     """Whether a formula of positive dimensions and the like cannot vanish."""
     return bool(sympy.factor_terms(formula).is_nonzero)

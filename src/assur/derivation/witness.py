@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import numpy as np
 import sympy
 
@@ -25,6 +26,10 @@ PRIMES = 64
 """Primes that are tried for roots of numbers; of k roots one prime in 2^k has them all."""
 TRIES = 200
 """Draws after which a root is taken not to exist; of k roots of roots one draw in 2^k has them all."""
+
+
+DIGITS = 30
+"""Of what is at home."""
 
 
 class NoResidueRootError(ArithmeticError):
@@ -101,10 +106,12 @@ class ModularWitness:
 
     def at_home(self, formula: Any) -> float:
         """The value of a formula at home; not a number where it divides by what vanishes there."""
-        try:
-            return float(sympy.sympify(formula).evalf(30, subs=self.home))
-        except ZeroDivisionError:
-            return math.nan
+        with mpmath.workdps(DIGITS):
+            try:
+                number = _number(sympy.sympify(formula), dict(self.home))
+            except ZeroDivisionError:
+                return math.nan
+            return float(number)
 
     def rank(self, rows: list[list[sympy.Expr]]) -> int:
         """The rank of a matrix of formulas."""
@@ -250,3 +257,19 @@ class ModularWitness:
     def _inverse(self, a: Element) -> Element:
         size = pow(a[0] * a[0] + a[1] * a[1], -1, self.field.p)
         return a[0] * size % self.field.p, -a[1] * size % self.field.p
+
+
+def _number(formula: sympy.Expr, known: dict[sympy.Expr, Any]) -> Any:
+    """The value of a formula by those of its symbols; each part that it has several times once."""
+    if formula not in known:
+        parts = [_number(part, known) for part in formula.args]
+        if formula.is_Add:
+            known[formula] = mpmath.fsum(parts)
+        elif formula.is_Mul:
+            known[formula] = mpmath.fprod(parts)
+        elif formula.is_Pow:
+            known[formula] = parts[0] ** parts[1]
+        else:
+            value = formula.func(*map(sympy.Float, parts)) if parts else formula
+            known[formula] = mpmath.mpmathify(sympy.N(value, DIGITS))
+    return known[formula]
