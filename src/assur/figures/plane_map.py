@@ -11,9 +11,10 @@ from typing import Literal
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
@@ -25,6 +26,8 @@ from assur.model.pose import LENGTHS, is_angle
 
 FloatArray = NDArray[np.float64]
 COLOURS = "cividis"
+PLAIN = 10.0
+"""A bar of colours by decades has plain numbers where its ends differ by less than this factor."""
 SHOWN = 0.75
 """Colours end at this quantile of what grows without bound towards a singularity."""
 
@@ -73,10 +76,8 @@ class MappedPlane:
     @property
     def words(self) -> str:
         """E.g. "XOZ, y = 0 mm"."""
-        free = self.context.workspace.box.names
-        held = [(name, value) for name, value in self.held.items() if name in free]
         return plane_words(*self.names) + "".join(
-            f", {symbol(name)} = {value_words(self.context, name, value)}" for name, value in held
+            f", {symbol(name)} = {value_words(self.context, name, value)}" for name, value in self.held.items()
         )
 
 
@@ -211,7 +212,12 @@ def with_bar(
         bar.set_axis_off()
         axes.text(0.5, 0.5, otherwise, transform=axes.transAxes, ha="center", va="center", fontsize=SMALL)
         return
-    image.figure.colorbar(image, cax=bar, extend=extend)
+    colours = image.figure.colorbar(image, cax=bar, extend=extend)
+    low, high = image.get_clim()
+    if isinstance(image.norm, LogNorm) and high < PLAIN * low:
+        ticks = [tick for tick in MaxNLocator(6).tick_values(low, high) if low <= tick <= high]
+        colours.set_ticks(ticks, labels=[f"{tick:.4g}" for tick in ticks])
+        colours.minorticks_off()
     bar.tick_params(labelsize=SMALL)
 
 
