@@ -122,8 +122,11 @@ def synthesize(
     Limbs are series of R, P, C, U and parallelograms, axes parallel or
     perpendicular to each other; S stands in limbs that constrain nothing. With
     fewer limbs than freedoms some begin with an inner loop of a catalogue. A
-    family has limbs of the same motions. Every mechanism that is listed is
-    confirmed by the rules of POC sets and by the rank of twists.
+    family has limbs of the same motions. Every mechanism of 3T, 2T1R, 3T1R and
+    3T3R that is listed is confirmed by the rules of POC sets and by the rank of
+    twists. Of other motions, limbs close with a virtual chain at finite
+    displacements, and ranks of twists there count what is listed. Parasitic
+    ones are moved by a finite amount; rules and twists agree where rules answer.
     The best come first: smallest coupling degree, then fewest redundant
     constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
     Before it begins it says how many combinations there are, where these are

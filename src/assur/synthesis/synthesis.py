@@ -77,7 +77,7 @@ def synthesis(
     step: Step = ignored,
     most: int | None = None,
 ) -> Synthesis:
-    """Mechanisms with a wanted motion, each confirmed by rules and by twists.
+    """Mechanisms with a wanted motion, each confirmed by twists; by rules, too, where places make no difference.
 
     Limbs are series of R, P, C, U and parallelograms with axes parallel or perpendicular to each other, and S in limbs
     that constrain nothing; U counts as one joint. A series has one actuator. With fewer limbs than freedoms, limbs
