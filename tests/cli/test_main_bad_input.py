@@ -191,3 +191,41 @@ def test_an_interrupt_exits_130(assur_cli, monkeypatch):
     assert (run.code, run.out, run.err) == (130, "", "interrupted: there is no answer yet\n")
     run = assur_cli("direct", "zeng2019", "1", "2", "3", "--json")
     assert run.code == run.json["error"]["exit_code"] == 130
+
+
+SERIAL = """
+format = 1
+name = "arm"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "b", pose = ["x", "y"] }
+[parameters]
+l = { value = 100, meaning = "length" }
+[links]
+base = { meaning = "base" }
+a = { meaning = "first" }
+b = { meaning = "second" }
+[joints]
+A = { type = "revolute", parent = "base", child = "a", axis = "z" }
+B = { type = "revolute", parent = "a", child = "b", at = ["l", 0, 0], axis = "z" }
+[inputs]
+A = { name = "q1" }
+B = { name = "q2" }
+[home]
+A = 10
+B = 40
+"""
+
+
+@pytest.mark.parametrize(
+    "command", ["check", "show", "report", "singularity", "indices", "forces", "errors", "identify --count 3"]
+)
+def test_a_file_without_a_loop_is_refused_by_every_command(assur_cli, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.toml").write_text(SERIAL, encoding="utf-8")
+    name, *rest = command.split()
+    posed = ["--pose", "90", "20"] * (name in ("singularity", "indices", "forces", "errors"))
+    run = assur_cli(name, "arm.toml", *posed, *rest)
+    assert "no loop: nothing but serial chains" in run.out + run.err
+    assert run.code in (1, 3)

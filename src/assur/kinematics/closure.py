@@ -324,7 +324,7 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
     """
     matrix = closure_jacobian(record, values) * joint_scales(record)
     singular = np.asarray(np.linalg.svd(matrix, compute_uv=False), dtype=float)
-    rank, gap = rank_of(singular, threshold * singular[..., 0])
+    rank, gap = rank_of(singular, threshold * np.max(singular, axis=-1, initial=0.0))
     return AssemblyMobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)
 
 

@@ -39,3 +39,12 @@ def home_values(record: MechanismRecord) -> FloatArray:
         found = carried_home(record, found)
     found.values.flags.writeable = False
     return found.values
+
+
+def without_loops(record: MechanismRecord) -> Problem:
+    """What is said of a file of nothing but serial chains."""
+    from assur.model.file.place import problem, table_place  # what reads a file again, for a fault alone
+
+    what = "no loop: nothing but serial chains"
+    hint = "its joint values are its position; assur is for closed loops"
+    return problem(record, table_place(record, "joints"), what, "at least one closed loop", hint)

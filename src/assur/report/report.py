@@ -9,9 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import assur
-from assur.errors import Interrupted
+from assur.errors import Interrupted, MechanismFileError
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.contract.admission import check_closed_form
 from assur.kinematics.contract.extent import IN_FULL
+from assur.kinematics.home import without_loops
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.render import Page, page_html
@@ -86,6 +88,8 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
 
     Ctrl-C ends it with `Interrupted`, whose answer is the page of the sections that are done.
     """
+    if not joint_graph(findings.record).cut:
+        raise MechanismFileError([without_loops(findings.record)])
     check_closed_form(findings.record, IN_FULL)
     sections: dict[str, Section] = {}
     refused: dict[str, str] = {}

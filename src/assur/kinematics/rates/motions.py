@@ -12,9 +12,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import MechanismFileError
 from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import RANK_GAP, assemble, closure_jacobian, rank_of
-from assur.kinematics.home import home_values
+from assur.kinematics.home import home_values, without_loops
 from assur.kinematics.pose import platform_twists, turning_rates
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
@@ -158,7 +160,12 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
 
     `threshold` is the share of the closure's largest singular value below which one counts as zero; by default
     `SINGULAR` times the share that the smallest has around home.
+
+    Errors:
+        MechanismFileError: a file of nothing but serial chains.
     """
+    if not joint_graph(record).cut:
+        raise MechanismFileError([without_loops(record)])
     threshold = SINGULAR * general_share(record) if threshold is None else threshold
     scale = joint_units(record)
     closure = closure_jacobian(record, values) * scale  # (..., 6 v, n)

@@ -10,7 +10,7 @@ from assur.errors import MechanismFileError, Problem
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import quantity_text
-from assur.kinematics.home import home_values
+from assur.kinematics.home import home_values, without_loops
 from assur.kinematics.limits import Limit, limits
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
@@ -57,9 +57,7 @@ def faults(record: MechanismRecord) -> tuple[Problem, ...]:
     ()
     """
     if not joint_graph(record).cut:
-        what = "no loop: nothing but serial chains"
-        hint = "its joint values are its position; assur is for closed loops"
-        return (problem(record, table_place(record, "joints"), what, "at least one closed loop", hint),)
+        return (without_loops(record),)
     gaps = () if record.overrides else gap_problems(record)
     if gaps:
         return _ordered(gaps)
