@@ -108,6 +108,8 @@ def _better(before: Topology, after: Topology) -> Iterator[str]:
         ("κ", before.coupling_degree, after.coupling_degree),
         ("redundant", redundant[0], redundant[1]),
     )
-    yield from (f"{name} {old} to {new}" for name, old, new in pairs if None not in (old, new) and new < old)  # type: ignore[operator]
+    for name, old, new in pairs:
+        if old is not None and new is not None and new < old:
+            yield f"{name} {old} to {new}"
     if zeros(after) > zeros(before):
         yield f"zeros {zeros(before)} to {zeros(after)}"

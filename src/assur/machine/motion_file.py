@@ -19,7 +19,7 @@ from assur.errors import UsageError
 from assur.kinematics.answers.at_border import coordinate_unit
 from assur.kinematics.border import LARGEST, drive_names
 from assur.machine.prescribed_motion import LEAST, MOST, PrescribedMotion, harmonic, sampled
-from assur.machine.release import MOMENTS, Release, forces_in_time
+from assur.machine.release import MOMENTS, Release, constant_forces, forces_in_time
 from assur.model.file.faults import Faults, listed, nearest
 from assur.model.file.key_path import KeyPath
 from assur.model.file.toml_source import read_toml
@@ -134,8 +134,8 @@ class _Reading:
             values = self._rows(table, ("forces",), "values", drives, np.ones(len(drives)), len(times))
             exerted = None if len(times) != len(values) else forces_in_time(times, values)
         else:
-            constant = [self._of_drive(table, pair) for pair in zip(drives, labels, strict=True)]
-            exerted = lambda _: np.array(constant)  # noqa: E731
+            constant = np.array([self._of_drive(table, pair) for pair in zip(drives, labels, strict=True)])
+            exerted = constant_forces(constant)
         if self.faults.problems or exerted is None or end is None:
             return None
         return Release(pose, velocity, end, exerted, count=count or MOMENTS)

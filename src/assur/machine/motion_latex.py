@@ -2,7 +2,6 @@ r"""The equation of motion as a LaTeX document: definitions in the order in whic
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterator
 
@@ -41,7 +40,8 @@ def letter(name: str) -> str:
     >>> print(letter("l12"), letter("theta1"), letter("leg"))
     l_{12} \theta_{1} \mathrm{leg}
     """
-    word, number = re.fullmatch(r"(.*?)_?(\d*)", name).groups()  # type: ignore[union-attr]
+    stem = name.rstrip("0123456789")
+    word, number = stem.removesuffix("_"), name[len(stem) :]
     head = f"\\{word}" if word in GREEK else word if len(word) == 1 else rf"\mathrm{{{word.replace('_', ' ')}}}"
     return f"{head}_{{{number}}}" if number else head
 

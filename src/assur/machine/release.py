@@ -36,6 +36,15 @@ class Release:
     count: int = MOMENTS
 
 
+def constant_forces(values: FloatArray) -> Forces:
+    """The same forces (d,) at all times.
+
+    >>> constant_forces(np.array([1.0, 2.0]))(0.5).tolist()
+    [1.0, 2.0]
+    """
+    return lambda _: values.copy()
+
+
 def forces_in_time(times: FloatArray, values: FloatArray, *, smooth: bool = False) -> Forces:
     """Forces (N, d) at times (N,) in s: straight between them, or smooth; before the first and after the last as there.
 
