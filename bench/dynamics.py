@@ -24,10 +24,10 @@ from rich.table import Table
 import assur
 from assur.export.urdf import urdf
 from assur.kinematics.rates.acceleration import joints_in_mode
-from assur.machine.balance import Asked, balanced
-from assur.machine.batches import balanced_in_batches
-from assur.machine.loads import load_of
-from assur.machine.masses import masses
+from assur.machine.forces.balance import Asked, balanced
+from assur.machine.forces.batches import balanced_in_batches
+from assur.machine.forces.loads import load_of
+from assur.machine.masses.link_masses import masses
 from assur.mechanism import Mechanism
 
 MECHANISMS = {"zeng2019": "++-++", "delta_4s": None}

@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from assur.kinematics.following.path import Path as Way
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
-    from assur.machine.dynamics import MotionForces
-    from assur.machine.forces import ActuatorForces
-    from assur.machine.free_motion import FreeMotion
-    from assur.machine.pose_errors import PoseErrors
-    from assur.machine.prescribed_motion import PrescribedMotion
-    from assur.machine.release import Release
-    from assur.machine.small_motions import SmallMotions
-    from assur.machine.stiffness import Stiffness
+    from assur.machine.accuracy.pose_errors import PoseErrors
+    from assur.machine.dynamics.free_motion import FreeMotion
+    from assur.machine.dynamics.inverse_dynamics import MotionForces
+    from assur.machine.dynamics.prescribed_motion import PrescribedMotion
+    from assur.machine.dynamics.release import Release
+    from assur.machine.dynamics.small_motions import SmallMotions
+    from assur.machine.elasticity.stiffness import Stiffness
+    from assur.machine.forces.actuator_forces import ActuatorForces
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
     from assur.singularity.verdict import Verdict
@@ -108,38 +108,38 @@ class Mechanism(MechanismRecord):
         gravity: bool = True,
         mode: str | None = None,
     ) -> ActuatorForces:
-        """Forces of the actuators, energies, terms of motion at poses (..., m): see `assur.machine.forces.forces`."""
-        from assur.machine.forces import forces
+        """Forces of the actuators, energies and terms of motion at poses (..., m): `machine.forces.actuator_forces`."""
+        from assur.machine.forces.actuator_forces import forces
 
         return forces(self, poses, velocity, acceleration, load, gravity=gravity, mode=mode)
 
     def stiffness(self, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:
-        """How the platform gives way at poses (..., m): see `assur.machine.stiffness.stiffness`."""
-        from assur.machine.stiffness import stiffness
+        """How the platform gives way at poses (..., m): see `machine.elasticity.stiffness.stiffness`."""
+        from assur.machine.elasticity.stiffness import stiffness
 
         return stiffness(self, poses, mode, shear=shear)
 
     def dynamics(self, motion: PrescribedMotion, mode: str | None = None, **options: Any) -> MotionForces:
-        """Forces of the actuators along a motion in time: see `assur.machine.dynamics.dynamics` for the options."""
-        from assur.machine.dynamics import dynamics
+        """Forces of the actuators along a motion in time: options as `machine.dynamics.inverse_dynamics` has them."""
+        from assur.machine.dynamics.inverse_dynamics import dynamics
 
         return dynamics(self, motion, mode, **options)
 
     def free_motion(self, release: Release, mode: str | None = None, **options: Any) -> FreeMotion:
-        """The motion from a start by given forces: see `assur.machine.free_motion.free_motion` for the options."""
-        from assur.machine.free_motion import free_motion
+        """The motion from a start by given forces: see `machine.dynamics.free_motion.free_motion` for the options."""
+        from assur.machine.dynamics.free_motion import free_motion
 
         return free_motion(self, release, mode, **options)
 
     def small_motions(self, pose: ArrayLike, mode: str | None = None, **options: Any) -> SmallMotions:
-        """Small motions about a held pose (m,): see `assur.machine.small_motions.small_motions` for the options."""
-        from assur.machine.small_motions import small_motions
+        """Small motions about a held pose (m,): see `machine.dynamics.small_motions.small_motions` for the options."""
+        from assur.machine.dynamics.small_motions import small_motions
 
         return small_motions(self, pose, mode, **options)
 
     def errors(self, pose: ArrayLike, mode: str | None = None) -> PoseErrors:
-        """How errors of dimensions and inputs move the platform: see `assur.machine.pose_errors.pose_errors`."""
-        from assur.machine.pose_errors import pose_errors
+        """How errors of dimensions and inputs move the platform: see `machine.accuracy.pose_errors.pose_errors`."""
+        from assur.machine.accuracy.pose_errors import pose_errors
 
         return pose_errors(self, pose, mode)
 

@@ -7,8 +7,8 @@ import pytest
 
 import assur
 from assur.kinematics.pose import pose_of
-from assur.machine.motion_file import read_motion
-from assur.machine.small_motions import small_motions
+from assur.machine.dynamics.motion_file import read_motion
+from assur.machine.dynamics.small_motions import small_motions
 
 CIRCLE = (
     "[harmonic]\ncentre = [-15, 10, 400]\namplitude = [20, 30, 0]\nomega = 6\nphase = [0, 1.5707963, 0]\ncount = 9\n"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.machine.capacity import capacity
+from assur.machine.forces.capacity import capacity
 
 POSE = ("-15.4714", "9.6849", "456.3315")
 LOAD = ("--load", "0,0,-100")

@@ -3,7 +3,7 @@
 import pytest
 
 import assur
-from assur.machine.identification import identification, random_poses
+from assur.machine.calibration.identification import identification, random_poses
 
 
 def test_it_says_what_the_library_says(assur_cli):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import assur
-from assur.machine.elastic_reactions import elastic_reactions
-from assur.machine.forces import forces_at
-from assur.machine.loads import load_of
-from assur.machine.pose_errors import pose_errors_at
-from assur.machine.reactions import reactions
-from assur.machine.stiffness import stiffness_at
+from assur.machine.accuracy.pose_errors import pose_errors_at
+from assur.machine.elasticity.elastic_reactions import elastic_reactions
+from assur.machine.elasticity.stiffness import stiffness_at
+from assur.machine.forces.actuator_forces import forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.forces.reactions import reactions
 from bending import bending, by_multipliers
 from weighed import place
 

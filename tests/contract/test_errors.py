@@ -6,9 +6,9 @@ import pytest
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import assemble
 from assur.kinematics.pose import platform_frame
-from assur.machine.elastic_errors import elastic_errors
-from assur.machine.geometry_errors import geometry_errors
-from assur.machine.pose_errors import pose_errors_at
+from assur.machine.accuracy.elastic_errors import elastic_errors
+from assur.machine.accuracy.geometry_errors import geometry_errors
+from assur.machine.accuracy.pose_errors import pose_errors_at
 from assur.model.dimensions import with_parameters
 from assur.numerics import rotations
 from bending import bending

@@ -5,10 +5,10 @@ import pytest
 
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.forces import forces_at
-from assur.machine.loads import load_of
-from assur.machine.masses import masses
-from assur.machine.reactions import reactions
+from assur.machine.forces.actuator_forces import forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.forces.reactions import reactions
+from assur.machine.masses.link_masses import masses
 from assur.model.pose import LENGTHS
 from weighed import motion_of, moved, place, weighed
 

@@ -7,12 +7,12 @@ from scipy.interpolate import make_interp_spline
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
-from assur.machine.dynamics import dynamics
-from assur.machine.forces import forces_at
-from assur.machine.free_motion import free_motion
-from assur.machine.loads import load_of
-from assur.machine.prescribed_motion import sampled
-from assur.machine.release import Release
+from assur.machine.dynamics.free_motion import free_motion
+from assur.machine.dynamics.inverse_dynamics import dynamics
+from assur.machine.dynamics.prescribed_motion import sampled
+from assur.machine.dynamics.release import Release
+from assur.machine.forces.actuator_forces import forces_at
+from assur.machine.forces.loads import load_of
 from assur.model.pose import LENGTHS, rate_names
 from catalogue import each
 from weighed import weighed

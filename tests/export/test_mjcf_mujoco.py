@@ -8,7 +8,7 @@ from assur.export.bodies import MASS
 from assur.export.names import link_name
 from assur.joint_graph.frames import frames
 from assur.kinematics.closure import mobility
-from assur.machine.masses import masses
+from assur.machine.masses.link_masses import masses
 
 pytestmark = pytest.mark.sim
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from assur.figures import catalogue as figures
-from assur.machine.capacity_maps import capacity_maps
+from assur.machine.forces.capacity_maps import capacity_maps
 
 
 def test_maps_are_those_of_the_workspace(context):

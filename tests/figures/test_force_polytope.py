@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.figures import catalogue as figures
 from assur.kinematics.pose import pose_of
-from assur.machine.capacity import capacity
+from assur.machine.forces.capacity import capacity
 
 
 @pytest.mark.parametrize("name", ["fivebar", "zeng2019"])

@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.figures import catalogue as figures
 from assur.kinematics.pose import pose_of
-from assur.machine.reactions import reactions
+from assur.machine.forces.reactions import reactions
 from assur.model.machine_data import MachineData
 
 

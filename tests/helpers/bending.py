@@ -12,9 +12,9 @@ import numpy as np
 from assur.joint_graph.frames import frames, screws
 from assur.kinematics.pose import platform_frame
 from assur.kinematics.validation.check import METRES
-from assur.machine.bars import joint_points
-from assur.machine.screws import rate_units
-from assur.machine.structure import structure
+from assur.machine.elasticity.structure import structure
+from assur.machine.masses.bars import joint_points
+from assur.machine.motion.screws import rate_units
 from assur.model.machine_data import Actuator, LinkData, MachineData, Material, Profile
 
 

@@ -10,7 +10,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import assemble
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.validation.check import METRES
-from assur.machine.screws import rate_units
+from assur.machine.motion.screws import rate_units
 from assur.model.machine_data import Actuator, Gravity, LinkData, MachineData
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import rotations

@@ -18,8 +18,8 @@ from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.capacity import capacity
-from assur.machine.forces import force_units
+from assur.machine.forces.actuator_forces import force_units
+from assur.machine.forces.capacity import capacity
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.forces import CapacityAnswer

@@ -15,7 +15,7 @@ from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import mechanism_header
-from assur.machine.calibration import calibration
+from assur.machine.calibration.fit import calibration
 from assur.mechanism import Mechanism
 from assur.model.mechanism import Input
 from assur.results.answers.calibration import CalibrationAnswer

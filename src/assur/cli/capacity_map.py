@@ -12,9 +12,9 @@ from assur.cli.mapped import map_tables, maps_file, plane_names, region_of_plane
 from assur.cli.numbers import whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.progress import progress
-from assur.machine.capacity import force_limits
-from assur.machine.capacity_maps import capacity_maps, tops
-from assur.machine.masses import all_masses
+from assur.machine.forces.capacity import force_limits
+from assur.machine.forces.capacity_maps import capacity_maps, tops
+from assur.machine.masses.link_masses import all_masses
 from assur.mechanism import Mechanism
 from assur.workspace.index_maps import IndexMaps
 from assur.workspace.region import Workspace

@@ -79,7 +79,7 @@ def dynamics(
         raise UsageError("--motion is missing", hint="--motion motion.toml, with [harmonic], [samples] or [forces]")
     from assur.cli import timed
     from assur.cli.paths import output_file
-    from assur.machine.motion_file import read_motion
+    from assur.machine.dynamics.motion_file import read_motion
 
     path = output_file(output, ENDINGS) if output is not None else None
     read = read_motion(record, Path(motion))

@@ -18,7 +18,7 @@ from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.machine.pose_errors import COORDINATES, PoseErrors
+from assur.machine.accuracy.pose_errors import COORDINATES, PoseErrors
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.errors import ErrorsAnswer, Row

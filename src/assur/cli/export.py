@@ -103,7 +103,7 @@ def export(
     answer = WrittenExport(record.name, format_, tuple(written))
     if format_ in SIMULATED:
         from assur.export.bodies import MASS
-        from assur.machine.masses import masses
+        from assur.machine.masses.link_masses import masses
 
         if masses(record).lacking:
             answer = replace(answer, nominal_mass_kg=MASS)

@@ -20,11 +20,11 @@ from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.elastic_reactions import elastic_reactions
-from assur.machine.forces import ActuatorForces, force_units
-from assur.machine.masses import masses
-from assur.machine.reactions import Reactions, reactions
-from assur.machine.skeletons import elastic
+from assur.machine.elasticity.elastic_reactions import elastic_reactions
+from assur.machine.elasticity.skeletons import elastic
+from assur.machine.forces.actuator_forces import ActuatorForces, force_units
+from assur.machine.forces.reactions import Reactions, reactions
+from assur.machine.masses.link_masses import masses
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.forces import ForcesAnswer, ShownReaction

@@ -12,7 +12,7 @@ from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header
-from assur.machine.identification import identification
+from assur.machine.calibration.identification import identification
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.identification import IdentificationAnswer, NotTold

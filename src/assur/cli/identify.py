@@ -44,7 +44,7 @@ def identify(
     from assur.cli.numbers import whole_number
     from assur.cli.pose_table import pose_table
     from assur.errors import UsageError
-    from assur.machine.identification import random_poses
+    from assur.machine.calibration.identification import random_poses
 
     mode = mode or record.modes.default_working
     if (poses is None) == (count is None):

@@ -20,8 +20,8 @@ from assur.kinematics.answers.style import style_of
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.forces import force_units
-from assur.machine.small_motions import small_motions
+from assur.machine.dynamics.small_motions import small_motions
+from assur.machine.forces.actuator_forces import force_units
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.dynamics import LinearMotionAnswer

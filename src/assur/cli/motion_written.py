@@ -11,8 +11,8 @@ from assur.cli.output import heading
 from assur.cli.paths import output_file
 from assur.errors import AssurError
 from assur.kinematics.answers.at_border import mechanism_header
-from assur.machine.motion_formulas import POSES, difference, motion_formulas
-from assur.machine.motion_latex import document
+from assur.machine.forces.motion_formulas import POSES, difference, motion_formulas
+from assur.machine.forces.motion_latex import document
 from assur.mechanism import Mechanism
 from assur.results.answers.forces import MotionFormulasAnswer
 from assur.results.files import write_whole

@@ -19,7 +19,7 @@ from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.stiffness import ACTUATORS, Stiffness
+from assur.machine.elasticity.stiffness import ACTUATORS, Stiffness
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.stiffness import Row, ShownCompliance, ShownShares, StiffnessAnswer

@@ -12,8 +12,8 @@ from assur.cli.mapped import map_tables, maps_file, plane_names, region_of_plane
 from assur.cli.numbers import whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.progress import progress
-from assur.machine.stiffness_maps import stiffness_maps
-from assur.machine.structure import structure
+from assur.machine.elasticity.stiffness_maps import stiffness_maps
+from assur.machine.elasticity.structure import structure
 from assur.mechanism import Mechanism
 from assur.workspace.index_maps import IndexMaps
 from assur.workspace.region import Workspace

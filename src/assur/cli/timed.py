@@ -23,14 +23,14 @@ from assur.kinematics.answers.at_border import mechanism_header
 from assur.kinematics.pose import pose_error
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.departure import Departure
-from assur.machine.dynamics import MotionForces, dynamics
-from assur.machine.forces import force_units
-from assur.machine.masses import masses
-from assur.machine.motion_file import MotionFile
-from assur.machine.prescribed_motion import PrescribedMotion
-from assur.machine.release import Release, forces_in_time
-from assur.machine.utilisation import Utilisation, peak, rms, utilisation
+from assur.machine.dynamics.departure import Departure
+from assur.machine.dynamics.inverse_dynamics import MotionForces, dynamics
+from assur.machine.dynamics.motion_file import MotionFile
+from assur.machine.dynamics.prescribed_motion import PrescribedMotion
+from assur.machine.dynamics.release import Release, forces_in_time
+from assur.machine.forces.actuator_forces import force_units
+from assur.machine.forces.utilisation import Utilisation, peak, rms, utilisation
+from assur.machine.masses.link_masses import masses
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.dynamics import DynamicsAnswer, StoppedMotion, UsedShares
@@ -39,7 +39,7 @@ from assur.results.json_text import plain
 from assur.results.plain_text import count, short
 
 if TYPE_CHECKING:
-    from assur.machine.free_motion import FreeMotion
+    from assur.machine.dynamics.free_motion import FreeMotion
 
 FloatArray = NDArray[np.float64]
 ROWS = 12
@@ -67,7 +67,7 @@ def outcome(
         answer = _of_prescribed(record, asked, mode, acting)
         release = _as_asked(asked, motion) if forward and asked.departure is None else None
     if release is not None:
-        from assur.machine.free_motion import free_motion  # with the integrators of SciPy
+        from assur.machine.dynamics.free_motion import free_motion  # with the integrators of SciPy
 
         answer = _of_free(record, free_motion(record, release, mode, acting[0], **options), mode, acting, motion)
     if path is not None and answer.t:

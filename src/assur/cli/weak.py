@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from assur.kinematics.status import Status
-from assur.machine.forces import ActuatorForces
-from assur.machine.weakness import Weakness, loosest, unfelt, weakness
+from assur.machine.forces.actuator_forces import ActuatorForces
+from assur.machine.forces.weakness import Weakness, loosest, unfelt, weakness
 from assur.results.answers.forces import ShownWeakness
 from assur.results.plain_text import short
 

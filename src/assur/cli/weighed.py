@@ -10,8 +10,8 @@ from rich.console import RenderableType
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.kinematics.answers.at_border import mechanism_header
-from assur.machine.masses import masses
-from assur.machine.rigid_body import RigidBody
+from assur.machine.masses.link_masses import masses
+from assur.machine.masses.rigid_body import RigidBody
 from assur.mechanism import Mechanism
 from assur.results.answers.masses import MassesAnswer, ShownBody
 from assur.results.plain_text import short

@@ -24,9 +24,9 @@ from assur.kinematics.closure import mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
-from assur.machine.forces import forces_at
-from assur.machine.loads import load_of
-from assur.machine.masses import masses
+from assur.machine.forces.actuator_forces import forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.masses.link_masses import masses
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import rotations

@@ -21,8 +21,8 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.kinematics.validation.check import METRES
-from assur.machine.masses import masses
-from assur.machine.rigid_body import RigidBody
+from assur.machine.masses.link_masses import masses
+from assur.machine.masses.rigid_body import RigidBody
 from assur.model.mechanism import Joint, MechanismRecord
 
 FloatArray = NDArray[np.float64]

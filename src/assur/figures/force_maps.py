@@ -10,8 +10,8 @@ from assur.figures.index_maps import drawn
 from assur.figures.plane_map import plane_of_lengths
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import FigureKind
-from assur.machine.capacity_maps import MOST, capacity_maps, tops
-from assur.machine.masses import masses
+from assur.machine.forces.capacity_maps import MOST, capacity_maps, tops
+from assur.machine.masses.link_masses import masses
 from assur.workspace.index_maps import IndexMaps
 
 NODES = 32

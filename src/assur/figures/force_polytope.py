@@ -14,8 +14,8 @@ from assur.figures.joint_forces import no_masses
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREY, INK, SKY
 from assur.kinematics.pose import pose_of
-from assur.machine.capacity import ForceCapacity, capacity
-from assur.machine.utilisation import stated
+from assur.machine.forces.capacity import ForceCapacity, capacity
+from assur.machine.forces.utilisation import stated
 from assur.scene.camera import orthographic, plane
 
 FloatArray = NDArray[np.float64]

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from assur.figures.style import GREY, INK, PAGE, SERIES, new_figure
-from assur.machine.forces import force_units
-from assur.machine.utilisation import stated
+from assur.machine.forces.actuator_forces import force_units
+from assur.machine.forces.utilisation import stated
 from assur.model.mechanism import MechanismRecord
 from assur.results.answers.dynamics import DynamicsAnswer
 

@@ -15,10 +15,10 @@ from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, INK, PAPER, RED, SMALL
 from assur.kinematics.status import Status
-from assur.machine.forces import forces_at
-from assur.machine.loads import load_of
-from assur.machine.masses import masses
-from assur.machine.reactions import JointReaction, reactions
+from assur.machine.forces.actuator_forces import forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.forces.reactions import JointReaction, reactions
+from assur.machine.masses.link_masses import masses
 from assur.scene.camera import oblique, orthographic
 from assur.scene.skeleton import Skeleton
 

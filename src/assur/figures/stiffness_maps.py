@@ -12,7 +12,7 @@ from assur.figures.context import Context
 from assur.figures.plane_map import MappedPlane, coloured, panels, with_bar
 from assur.figures.spec import Drawing
 from assur.figures.style import INK
-from assur.machine.stiffness_maps import LEAST, MOTORS, WAYS
+from assur.machine.elasticity.stiffness_maps import LEAST, MOTORS, WAYS
 from assur.model.pose import LENGTHS
 from assur.results.json_text import plain
 from assur.workspace.index_maps import IndexMaps

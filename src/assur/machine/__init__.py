@@ -1,1 +1,1 @@
-"""From kinematics to a machine: masses, forces of the actuators, reactions in the joints."""
+"""From kinematics to a machine: masses, motion, forces, dynamics, elasticity, accuracy, calibration, in this order."""

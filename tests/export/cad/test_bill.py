@@ -8,7 +8,7 @@ import pytest
 
 import assur
 from assur.export.cad.bill import bill, bill_csv
-from assur.machine.masses import masses
+from assur.machine.masses.link_masses import masses
 from assur.model.machine_data import LinkData, MachineData
 from assur.results.answers.files import BillRow
 from assur.scene.bodies import bodies, fused

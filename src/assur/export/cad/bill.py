@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.validation.check import METRES
-from assur.machine.masses import masses
+from assur.machine.masses.link_masses import masses
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.results.answers.files import BillRow
 from assur.scene.bodies import LinkBody, bodies, corners, fused

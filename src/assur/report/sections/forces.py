@@ -10,10 +10,10 @@ from assur.errors import UsageError
 from assur.figures.force_polytope import FORCE_POLYTOPE, held
 from assur.figures.joint_forces import JointForces, joint_forces
 from assur.kinematics.status import Status
-from assur.machine.forces import ActuatorForces, force_units, forces_at
-from assur.machine.loads import load_of
-from assur.machine.masses import all_masses
-from assur.machine.utilisation import stated
+from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.forces.utilisation import stated
+from assur.machine.masses.link_masses import all_masses
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, RANK, Picture, Result, Scalar, Section, Table
 from assur.results.typeset_text import short

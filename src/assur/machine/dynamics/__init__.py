@@ -1,0 +1,1 @@
+"""Motions in time: prescribed ones, and those that forces bring about."""

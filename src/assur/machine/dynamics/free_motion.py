@@ -1,0 +1,269 @@
+"""The motion of a mechanism that is left to the forces of its actuators, gravity and a load.
+
+Runge-Kutta of the eighth order takes steps by the equation of motion; after each the loops are closed again, and rates
+that would open them are left out. An event of the watch ends it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import DOP853
+
+from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.border import checked_poses, drives_of
+from assur.kinematics.closure import assemble, closure_error
+from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.acceleration import joints_in_mode
+from assur.kinematics.status import Status
+from assur.kinematics.turns import joint_units, whole_turns_less
+from assur.kinematics.validation.check import METRES
+from assur.machine.dynamics.departure import Departure, not_begun
+from assur.machine.dynamics.equation_of_motion import EquationOfMotion
+from assur.machine.dynamics.release import Release
+from assur.machine.dynamics.watch import Watch, watch
+from assur.machine.forces.loads import load_of
+from assur.machine.masses.link_masses import all_masses
+from assur.machine.motion.joint_motion import ClosedMotion, joint_scales_si
+from assur.machine.motion.screws import screw_rates
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
+from assur.work import stage
+
+FloatArray = NDArray[np.float64]
+RELATIVE = 1e-10
+"""Error of a step."""
+OF_PLACES, OF_RATES = 1e-12, 1e-10
+"""Least errors that count, in rad and characteristic lengths, and these per s: the spins of thin rods, which have
+hardly any inertia, are noise of this size."""
+
+
+@dataclass(frozen=True, eq=False)
+class FreeMotion:
+    """The motion from a start, at N moments, in SI units.
+
+    Attributes:
+        record: the mechanism.
+        times: (N,) in s.
+        values: (N, n) joint values, in the mechanism's unit and rad.
+        joint_rates, joint_accelerations: (N, n).
+        forces: (N, d) of the actuators.
+        work: (N,) what these and the load did, in J.
+        under_gravity: whether it acts.
+        motion: of the joints at these moments.
+        departure: the event that ended it, or why it could not begin; None where it went on to its end.
+    """
+
+    record: MechanismRecord
+    times: FloatArray
+    values: FloatArray
+    joint_rates: FloatArray
+    joint_accelerations: FloatArray
+    forces: FloatArray
+    work: FloatArray
+    under_gravity: bool
+    motion: ClosedMotion
+    departure: Departure | None
+
+    @property
+    def status(self) -> str:
+        """What ended it: an event, or `regular` where it went on to its end."""
+        return self.departure.kind if self.departure else Status.regular.name
+
+    @cached_property
+    def poses(self) -> FloatArray:
+        """(N, m) in the mechanism's unit and rad."""
+        return pose_of(self.record, self.values)
+
+    @cached_property
+    def velocities(self) -> FloatArray:
+        """(N, k) of the pose, in m or rad per s."""
+        return np.asarray((self.motion.pose @ self.joint_rates[..., None])[..., 0])
+
+    @cached_property
+    def accelerations(self) -> FloatArray:
+        """(N, k) of the pose, in m or rad per s2."""
+        own = (self.motion.pose @ self.joint_accelerations[..., None])[..., 0]
+        changes = screw_rates(self.record, self.motion.inertia.screws, self.joint_rates)
+        return np.asarray(own + self.motion.pose_bias(self.joint_rates, changes))
+
+    @cached_property
+    def inputs(self) -> FloatArray:
+        """(N, d) printed inputs, in the mechanism's unit and rad."""
+        return drives_of(self.record, self.values)
+
+    @cached_property
+    def rates(self) -> FloatArray:
+        """Of the inputs (N, d), in m/s or rad/s."""
+        return np.asarray(self.joint_rates @ self.motion.drives.T)
+
+    @cached_property
+    def kinetic_energy(self) -> FloatArray:
+        """(N,) in J."""
+        return self.motion.inertia.kinetic(self.joint_rates)
+
+    @property
+    def potential_energy(self) -> FloatArray:
+        """(N,) in J."""
+        return self.motion.inertia.potential
+
+    @cached_property
+    def drift(self) -> float:
+        """The largest energy that came from nowhere, as a share of the largest kinetic energy; 0 at rest."""
+        whole = self.kinetic_energy + self.under_gravity * self.potential_energy - self.work
+        largest = float(np.max(self.kinetic_energy, initial=0.0))
+        return float(np.max(np.abs(whole - whole[0]))) / largest if largest else 0.0
+
+    @cached_property
+    def gap(self) -> float:
+        """The largest gap of the loops, in characteristic lengths."""
+        return float(np.max(closure_error(self.record, self.values))) / characteristic_length(self.record)
+
+    def __str__(self) -> str:
+        end = self.departure.text if self.departure else "it goes on to its end"
+        return f"free motion of {self.record.name}, {self.times[0]:.6g} s to {self.times[-1]:.6g} s: {end}"
+
+
+def free_motion(
+    record: MechanismRecord,
+    release: Release,
+    mode: str | None = None,
+    load: ArrayLike | None = None,
+    *,
+    gravity: bool = True,
+    use_limits: bool = True,
+) -> FreeMotion:
+    """The motion from a start in a working mode (the file's default where none is given), without friction.
+
+    Args:
+        record: the mechanism.
+        release: the start, and forces of the actuators in time.
+        mode: the working mode.
+        load: (3,) force in N on the platform at its point, or (6,) with a moment in N m, in the base frame.
+        gravity: whether it acts.
+        use_limits: whether strokes of inputs and limits of joints end the motion.
+
+    Errors:
+        UsageError: links without a mass, a pose of a wrong shape.
+
+    Example: the five-bar's platform falls for 10 ms, by next to g t^2 / 2 if its cranks did not weigh.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> start = Release(np.array([0.0, 224.0]), np.zeros(2), 0.01, lambda _: np.zeros(2), count=3)
+    >>> fallen = free_motion(record, start)
+    >>> fallen.drift < 1e-9, fallen.gap < 1e-10
+    (True, True)
+    """
+    equation = EquationOfMotion(record, all_masses(record), load_of(load, gravity))
+    pose = checked_poses(record, release.pose)
+    values = joints_in_mode(record, pose[None], mode)
+    if not np.all(np.isfinite(values)):
+        raise UsageError(not_begun(record, release.t_start, pose, mode).text)
+    run = _Run(equation, release, watch(record, values[0], use_limits=use_limits))
+    units = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
+    start = run.state(values[0], equation.motion(values).rates((release.velocity * units)[None])[0], 0.0)
+    departure = run.watch.at_start(release.t_start, values[0])
+    states = [(release.t_start, start)]
+    with stage("free motion", release.count) as work:
+        for time in (
+            np.linspace(release.t_start, release.t_end, release.count)[1:].tolist() if departure is None else []
+        ):
+            departure = run.to(states, time)
+            work.at(len(states), result=f"{states[-1][0]:.3g} s")
+            if departure is not None:
+                break
+    return _told(equation, run, states, departure)
+
+
+class _Run:
+    """The steps of a motion, by states: joint values, rates of the joints, work, all without dimensions."""
+
+    def __init__(self, equation: EquationOfMotion, release: Release, watch: Watch) -> None:
+        record = equation.record
+        length = METRES[record.unit] * characteristic_length(record)
+        self.equation, self.release, self.watch = equation, release, watch
+        self.count = len(record.coordinates)
+        self.units = np.concatenate(
+            [joint_units(record), joint_scales_si(record), [max(equation.masses.total, 1e-300) * length**2]]
+        )
+        self.least = np.repeat([OF_PLACES, OF_RATES], [self.count, self.count + 1])
+        self.solver: Any = None
+
+    def state(self, values: FloatArray, rates: FloatArray, work: float) -> FloatArray:
+        """The state (2 n + 1,) of joint values and rates (n,) and work."""
+        return np.asarray(np.concatenate([values, rates, [work]]) / self.units)
+
+    def parts(self, state: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+        """Joint values and rates (n,), and work, of a state."""
+        whole = state * self.units
+        return whole[: self.count], whole[self.count : -1], float(whole[-1])
+
+    def to(self, states: list[tuple[float, FloatArray]], time: float) -> Departure | None:
+        """Go on from the last of the states to a time; the state there, or at the event that ended it, follows them."""
+        if self.solver is None:
+            solver_of: Any = DOP853  # whose types know neither arrays of tolerances nor that steps fail
+            self.solver = solver_of(self._change, *states[-1], time, rtol=RELATIVE, atol=self.least)
+        solver = self.solver
+        solver.t_bound, solver.status = time, "running"
+        while solver.t < time:
+            solver.step()
+            if solver.status == "failed":
+                return self.watch.too_fast(float(solver.t), self.parts(solver.y)[0])
+            between = solver.dense_output()
+            event = self.watch.event(partial(self._values, between), float(solver.t_old or 0.0), float(solver.t))
+            if event is not None:
+                states.append((event.time, self._closed(between(event.time))))
+                return event
+            solver.y = self._closed(solver.y)
+            solver.f = solver.fun(solver.t, solver.y)
+        states.append((time, solver.y))
+        return None
+
+    def _values(self, between: Callable[[float], FloatArray], time: float) -> FloatArray:
+        """Joint values (n,) at a time within a step."""
+        return np.asarray(between(time)[: self.count] * self.units[: self.count])
+
+    def _change(self, time: float, state: FloatArray) -> FloatArray:
+        values, rates, _ = (np.atleast_2d(part) for part in self.parts(state))
+        forces, motion = self.release.forces(time)[None], self.equation.motion(values)
+        second = self.equation.accelerations(motion, rates, forces)
+        change = self.equation.value_rates(values, rates)[0], second[0], self.equation.power(motion, rates, forces)
+        return np.asarray(np.concatenate(change) / self.units)
+
+    def _closed(self, state: FloatArray) -> FloatArray:
+        """The state with its loops closed, and rates that keep them so."""
+        values, rates, work = self.parts(state)
+        record = self.equation.record
+        near = whole_turns_less(record, assemble(record, values[None], near=True).values)
+        return self.state(near[0], self.equation.closing_rates(self.equation.motion(near), rates[None])[0], work)
+
+
+def _told(
+    equation: EquationOfMotion, run: _Run, states: list[tuple[float, FloatArray]], departure: Departure | None
+) -> FreeMotion:
+    """The motion of states at their times."""
+    record = equation.record
+    parts = [run.parts(state) for _, state in states]
+    shape = (len(states), run.count)
+    values, rates = (np.array([part[k] for part in parts]).reshape(shape) for k in range(2))
+    forces = np.array([run.release.forces(time) for time, _ in states]).reshape(len(states), len(record.drives))
+    motion = equation.motion(values)
+    return FreeMotion(
+        record=record,
+        times=np.array([time for time, _ in states]),
+        values=values,
+        joint_rates=rates,
+        joint_accelerations=equation.accelerations(motion, rates, forces),
+        forces=forces,
+        work=np.array([part[2] for part in parts]),
+        under_gravity=equation.load.gravity,
+        motion=motion,
+        departure=departure,
+    )

@@ -1,0 +1,175 @@
+"""Forces of the actuators along a motion of the platform that is prescribed in time, the mode kept.
+
+The poses are followed from the first on (`assur.kinematics.following`): a motion that meets a singularity, the border
+of reach or a limit of the file is refused, with the moment and with what goes to zero there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.kinematics.border import checked_poses, drives_of
+from assur.kinematics.status import Status
+from assur.kinematics.validation.check import METRES
+from assur.machine.dynamics.departure import Departure
+from assur.machine.dynamics.equation_of_motion import EquationOfMotion
+from assur.machine.dynamics.followed_motion import followed_motion
+from assur.machine.dynamics.prescribed_motion import PrescribedMotion
+from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
+from assur.machine.forces.loads import load_of
+from assur.machine.forces.utilisation import Utilisation, peak, rms, utilisation
+from assur.machine.masses.link_masses import all_masses
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
+
+FloatArray = NDArray[np.float64]
+BALANCED = 1e-7
+"""Share of the largest weight per joint rate below which that per spin is rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionForces:
+    """Forces along a motion, at N moments, in SI units; none where the motion is refused.
+
+    Attributes:
+        record: the mechanism.
+        times: (N,) in s.
+        poses: (N, m) in the mechanism's unit and rad.
+        velocities, accelerations: (N, k) of the pose, in m or rad, per s and s2.
+        inputs: (N, d) printed inputs, in the mechanism's unit and rad, angles without jumps.
+        answer: forces, energies, rates of inputs (`machine.forces.actuator_forces.ActuatorForces`); None where refused.
+        departure: why the motion is refused; None where it is not.
+    """
+
+    record: MechanismRecord
+    times: FloatArray
+    poses: FloatArray
+    velocities: FloatArray
+    accelerations: FloatArray
+    inputs: FloatArray
+    answer: ActuatorForces | None
+    departure: Departure | None
+
+    @property
+    def status(self) -> str:
+        """The most severe of all moments; of a motion that is refused what it comes to."""
+        if self.answer is None:
+            return self.departure.kind if self.departure else ""
+        return Status(int(self.answer.status.max())).name
+
+    @property
+    def forces(self) -> FloatArray:
+        """What each actuator exerts (N, d), N or N m, friction left aside."""
+        return np.empty((0, len(self.record.drives))) if self.answer is None else self.answer.forces
+
+    @property
+    def rates(self) -> FloatArray:
+        """Rates of the inputs (N, d), m/s or rad/s."""
+        return np.empty((0, len(self.record.drives))) if self.answer is None else self.answer.input_rates
+
+    @cached_property
+    def with_friction(self) -> FloatArray:
+        """What each actuator exerts (N, d) with friction; where an input rests, what it needs at most."""
+        if self.answer is None:
+            return self.forces
+        resting = self.rates == 0.0
+        held = np.where(resting, np.sign(self.forces) * self.answer.friction_band, self.answer.friction)
+        return np.asarray(self.forces + held)
+
+    @property
+    def kinetic_energy(self) -> FloatArray:
+        """(N,) in J."""
+        return np.empty(0) if self.answer is None else self.answer.kinetic_energy
+
+    @property
+    def potential_energy(self) -> FloatArray:
+        """(N,) in J."""
+        return np.empty(0) if self.answer is None else self.answer.potential_energy
+
+    @cached_property
+    def spins_open(self) -> bool:
+        """Whether nothing drives the spin of rods that weigh beside their axes, so that forces depend on it."""
+        if self.answer is None:
+            return False
+        equation = EquationOfMotion(self.record, all_masses(self.record), self.answer.load)
+        motion = equation.motion(self.answer.values[:1])
+        pulled = np.einsum("nji,nj->ni", motion.idle, motion.inertia.weight)
+        return bool(np.abs(pulled).max() > BALANCED * np.abs(motion.inertia.weight).max())
+
+    @property
+    def peak(self) -> FloatArray:
+        """The largest force (d,) of each actuator, either way; NaN where the motion is refused."""
+        return peak(self.forces)
+
+    @property
+    def rms(self) -> FloatArray:
+        """The root of the mean square (d,) of the forces over time; NaN where the motion is refused."""
+        return rms(self.times, self.forces)
+
+    def utilisation(self, *, friction: bool = False) -> Utilisation:
+        """Shares of what each actuator can, with friction or without."""
+        return utilisation(self.record, self.with_friction if friction else self.forces, self.rates)
+
+    def __str__(self) -> str:
+        if self.departure is not None:
+            return f"motion of {self.record.name} refused: {self.departure.text}"
+        rows = [
+            f"{item.name}: at most {peak:.6g} {unit}, rms {rms:.6g} {unit}"
+            for item, peak, rms, unit in zip(
+                self.record.drives, self.peak, self.rms, force_units(self.record), strict=True
+            )
+        ]
+        span = f"{self.times[0]:.6g} s to {self.times[-1]:.6g} s"
+        return "\n".join([f"forces of {self.record.name} from {span} ({self.status})", *rows])
+
+
+def dynamics(
+    record: MechanismRecord,
+    motion: PrescribedMotion,
+    mode: str | None = None,
+    load: ArrayLike | None = None,
+    *,
+    gravity: bool = True,
+    use_limits: bool = True,
+) -> MotionForces:
+    """Forces of the actuators along a motion that begins in a working mode (the file's default where none is given).
+
+    Args:
+        record: the mechanism.
+        motion: of `machine.dynamics.prescribed_motion.harmonic` or `sampled`, or of `motion_file.read_motion`.
+        mode: the working mode.
+        load: (3,) force in N on the platform at its point, or (6,) with a moment in N m, in the base frame.
+        gravity: whether it acts.
+        use_limits: whether strokes of inputs and limits of joints bound the motion.
+
+    Errors:
+        UsageError: links without a mass.
+
+    Example: the Delta carries its payload round a circle of 200 mm, once in 0.4 s.
+
+    >>> import numpy as np
+    >>> from assur.machine.dynamics.prescribed_motion import harmonic
+    >>> from assur.model.registry import load_record
+    >>> delta = load_record("delta_4s")
+    >>> around = harmonic(delta, [0, 0, -0.9], [0.1, 0.1, 0], 5 * np.pi, [0, np.pi / 2, 0])
+    >>> answer = dynamics(delta, around)
+    >>> len(answer.times), answer.status
+    (65, 'regular')
+    """
+    acting = load_of(load, gravity)
+    times = motion.times
+    poses, velocities, accelerations = motion.at(times)
+    poses = checked_poses(record, poses)
+    joints, departure = followed_motion(record, motion, mode, use_limits=use_limits)
+    if departure is not None:
+        nothing, none = np.empty((0, velocities.shape[1])), np.empty((0, len(record.drives)))
+        return MotionForces(record, times[:0], poses[:0], nothing, nothing, none, None, departure)
+    metre = METRES[record.unit]
+    units = np.array([metre if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
+    velocities, accelerations = velocities * units, accelerations * units
+    answer = forces_at(record, joints, acting, velocities, accelerations)
+    return MotionForces(record, times, poses, velocities, accelerations, drives_of(record, joints), answer, None)

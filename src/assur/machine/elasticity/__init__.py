@@ -1,0 +1,1 @@
+"""How links, joints and actuators give way: structure, stiffness, vibrations."""

@@ -1,0 +1,223 @@
+"""Stiffness of a mechanism at poses: how its platform gives way while the inputs are held by their actuators.
+
+Matrix structural analysis of the whole joint graph: beams, rigid links, actuators as springs, passive joints as
+unknowns that nothing holds. Overconstraint needs no care, idle freedoms stay idle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics import border
+from assur.kinematics.closure import CLOSED, closure_error
+from assur.kinematics.home import home_values
+from assur.kinematics.rates.acceleration import joints_in_mode
+from assur.kinematics.status import Status
+from assur.kinematics.validation.check import METRES
+from assur.machine.elasticity.beams import KINDS
+from assur.machine.elasticity.strains import Strains, strains
+from assur.machine.elasticity.structure import structure
+from assur.machine.elasticity.vibrations import Vibrations, vibrations
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+RIGID = 1e-12
+"""Share of the largest compliance below which nothing gives way; turns count by the characteristic length."""
+ACTUATORS = "actuators"
+"""Stands for all of them among links and kinds of strain."""
+ABREAST = 256
+"""Configurations that are taken at once: their matrices fit a processor's cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stiffness:
+    """How the platform gives way at N poses, in SI units: displacement before rotation, force before moment.
+
+    Axes are the base's. Where a status says so there are no numbers: NaN.
+
+    Attributes:
+        record: the mechanism.
+        values: (N, n) joint values.
+        status: (N,) of `Status`: `parallel` where a motion that strains nothing moves the platform.
+        compliance: (N, 6, 6) at the platform's point, in m/N, rad/N and m/(N m), rad/(N m).
+        shear: whether beams give way to shear.
+        rigid: whether no link bends.
+    """
+
+    record: MechanismRecord
+    values: FloatArray
+    status: NDArray[np.int8]
+    compliance: FloatArray
+    shear: bool
+    rigid: bool
+
+    @cached_property
+    def rank(self) -> NDArray[np.int64]:
+        """In how many ways (N,) the platform gives way, of six."""
+        return self._split[0]
+
+    @cached_property
+    def stiffness(self) -> FloatArray:
+        """Inverse (N, 6, 6) of the compliance; NaN where rigid links leave a way in which nothing gives way."""
+        return self._split[1]
+
+    @cached_property
+    def _split(self) -> tuple[NDArray[np.int64], FloatArray]:
+        units = np.repeat([self.length, 1.0], 3)
+        plain = np.nan_to_num(self.compliance) / units / units[:, None]
+        sizes, vectors = np.linalg.eigh(plain)
+        kept = sizes > RIGID * sizes[:, -1:]
+        scaled = vectors / units[:, None]
+        inverse = (scaled / np.where(kept, sizes, np.nan)[:, None]) @ np.swapaxes(scaled, -1, -2)
+        return kept.sum(axis=-1), np.asarray(inverse)
+
+    @property
+    def length(self) -> float:
+        """The characteristic length in m."""
+        return METRES[self.record.unit] * characteristic_length(self.record)
+
+    @cached_property
+    def translational(self) -> tuple[FloatArray, FloatArray]:
+        """Stiffness (N, 3) in N/m, ascending, along directions (N, 3, 3) row by row, where no moment is applied.
+
+        Infinite along directions in which rigid links do not give way.
+        """
+        known = np.isfinite(self.compliance[:, 0, 0])
+        sizes, vectors = np.linalg.eigh(np.nan_to_num(self.compliance[:, :3, :3]))
+        sizes, vectors = sizes[:, ::-1], np.swapaxes(vectors, -1, -2)[:, ::-1]
+        soft = sizes > RIGID * sizes[:, :1]
+        stiff = np.where(soft, 1.0 / np.where(soft, sizes, 1.0), np.inf)
+        largest = np.take_along_axis(vectors, np.argmax(np.abs(vectors), axis=-1)[..., None], axis=-1)
+        ways = vectors * np.sign(largest)
+        return np.where(known[:, None], stiff, np.nan), np.where(known[:, None, None], ways, np.nan)
+
+    @cached_property
+    def actuator_only(self) -> Stiffness:
+        """The same if no link bent: only the actuators give way."""
+        return self if self.rigid else stiffness_at(self.record, self.values, rigid=True)
+
+    def strains(self, place: int = 0) -> Strains:
+        """The structure at one of the poses."""
+        return strains(structure(self.record, shear=self.shear, rigid=self.rigid), self.values[place : place + 1])
+
+    def shares(self, place: int = 0) -> EnergyShares:
+        """Where energy goes under unit forces along x, y and z, summed."""
+        return energy_shares(self.strains(place))
+
+    def vibrations(self, place: int = 0) -> Vibrations:
+        """The slowest natural vibrations at one of the poses."""
+        return vibrations(self.strains(place))
+
+    def __str__(self) -> str:
+        rows = []
+        for place, code in enumerate(self.status):
+            sizes, ways = self.translational[0][place], self.translational[1][place]
+            told = ", ".join(
+                f"{size:.6g} along ({', '.join(f'{part:.3f}' for part in way)})"
+                for size, way in zip(sizes, ways, strict=True)
+            )
+            rows.append(f"{Status(int(code)).name}: {told} N/m")
+        return "\n".join([f"stiffness of {self.record.name}, translations without moment", *rows])
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyShares:
+    """Shares of the strain energy under unit forces along x, y and z, summed. Each split sums to 1.
+
+    Attributes:
+        links, kinds: of all energy, by elastic links and by kinds of strain, that of all actuators among them.
+        actuators: of the energy of the actuators.
+        energy: all of it, in J.
+    """
+
+    links: Mapping[str, float]
+    kinds: Mapping[str, float]
+    actuators: Mapping[str, float]
+    energy: float
+
+
+def energy_shares(state: Strains) -> EnergyShares:
+    """Energy of beams and actuators at the first configuration of a structure."""
+    own, record = state.structure, state.structure.record
+    moved = state.displaced(np.swapaxes(state.platform[:1, :3], -1, -2))[0]  # (U, 3)
+    links = dict.fromkeys(own.skeletons, 0.0)
+    kinds = dict.fromkeys(KINDS, 0.0)
+    for beam, strain in zip(own.beams, state.of_beams[0] @ moved, strict=True):
+        wrench = beam.beam.stiffness @ (strain * state.units[:, None])
+        for kind, part in zip(KINDS, beam.beam.parts, strict=True):
+            energy = 0.5 * float(np.sum(wrench * (part @ wrench)))
+            links[beam.link] += energy
+            kinds[kind] += energy
+    joints = moved[own.unknowns - len(state.scales) :] * state.scales[:, None]
+    springs = 0.5 * own.stiffness * np.sum(joints**2, axis=1)
+    actuators = {item.name: float(springs[item.coordinate.index]) for item in record.drives}
+    links[ACTUATORS] = kinds[ACTUATORS] = sum(actuators.values())
+    return EnergyShares(_shares(links), _shares(kinds), _shares(actuators), sum(kinds.values()))
+
+
+def _shares(energies: Mapping[str, float]) -> dict[str, float]:
+    whole = sum(energies.values())
+    return {name: energy / whole if whole else 0.0 for name, energy in energies.items()}
+
+
+def stiffness(record: MechanismRecord, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:
+    """Stiffness at poses (..., m) in a working mode (the file's default where none is given).
+
+    Args:
+        record: the mechanism.
+        poses: (..., m) in the mechanism's unit and rad.
+        mode: the working mode.
+        shear: whether beams give way to shear (Timoshenko), or not (Euler and Bernoulli).
+
+    Returns:
+        Answers in SI units, one for each pose of the flattened batch. A status says where there are none.
+
+    Errors:
+        UsageError: an actuator without stiffness; a profile without material, E or nu; bars that are not known.
+
+    Example: how the paper's mechanism gives way, with the profiles that its file assumes.
+
+    >>> from assur.model.registry import load_record
+    >>> answer = stiffness(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315])
+    >>> answer.translational[0].round(-3).tolist(), answer.actuator_only.translational[0].round(-5).tolist()
+    ([[225000.0, 1121000.0, 8326000.0]], [[19500000.0, 165600000.0, 696800000.0]])
+    """
+    structure(record, shear=shear)  # what the file lacks is told before poses are solved
+    flat = border.checked_poses(record, poses).reshape(-1, len(record.platform.pose))
+    joints = joints_in_mode(record, flat, mode)
+    lost = ~np.all(np.isfinite(joints), axis=-1)
+    values = np.where(lost[:, None], home_values(record), joints)
+    return stiffness_at(record, values, shear=shear, lost=lost)
+
+
+def stiffness_at(
+    record: MechanismRecord,
+    values: FloatArray,
+    *,
+    shear: bool = True,
+    rigid: bool = False,
+    lost: NDArray[np.bool_] | None = None,
+) -> Stiffness:
+    """Stiffness at joint values (N, n); with `rigid` no link bends.
+
+    Where `lost` (N,) is true the joint values stand in for a pose that is not reached.
+    """
+    own = structure(record, shear=shear, rigid=rigid)
+    compliance, held = np.full((len(values), 6, 6), np.nan), np.zeros(len(values), dtype=bool)
+    for start in range(0, len(values), ABREAST):
+        part = slice(start, start + ABREAST)
+        state = strains(own, values[part])
+        held[part] = state.held
+        compliance[part] = state.platform @ state.displaced(np.swapaxes(state.platform, -1, -2))
+    status = np.where(held, int(Status.regular), int(Status.parallel)).astype(np.int8)
+    status[closure_error(record, values) > CLOSED * characteristic_length(record)] = int(Status.not_closed)
+    if lost is not None:
+        status[lost] = int(Status.unreachable)
+    compliance[status != int(Status.regular)] = np.nan
+    return Stiffness(record, values, status, 0.5 * (compliance + np.swapaxes(compliance, -1, -2)), shear, rigid)

@@ -1,0 +1,1 @@
+"""What actuators and joints bear: by virtual work, by Newton and Euler, and how much the actuators can."""

@@ -1,0 +1,1 @@
+"""What links weigh: bars, rigid bodies, and where each number comes from."""

@@ -1,0 +1,1 @@
+"""How joints and links move where the platform moves as given: rates, accelerations, and the inertia that resists."""

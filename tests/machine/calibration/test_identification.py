@@ -1,0 +1,68 @@
+"""Identification: what poses tell is the rank of differences of poses, and what they do not is said in words."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.machine.calibration.identification import Identification, identification, random_poses
+
+
+@pytest.fixture(scope="module")
+def zeng():
+    record = assur.load("zeng2019")
+    return identification(record, random_poses(record, 5))
+
+
+def test_dimensions_of_the_papers_mechanism_that_no_position_tells_apart(zeng):
+    words = [own.words for own in zeng.unidentifiable]
+    assert words[:3] == ["b and d act by their difference", "l5 does not act", "l7 and l8 act by their sum"]
+    assert zeng.rank + len(words) == len(zeng.parameters)
+    assert {"yA1", "yA2", "yA3"} < set(zeng.parameters)
+    for own in zeng.unidentifiable:
+        moved = zeng.matrix @ [own.combination.get(name, 0.0) for name in zeng.parameters]
+        np.testing.assert_allclose(moved, 0.0, atol=1e-7)
+
+
+def test_a_combination_that_is_not_told_leaves_poses_where_they_are():
+    """Solved again: half the rocker's length, and inputs moved against each other."""
+    record = assur.load("zeng2019")
+    (pose,) = random_poses(record, 1, seed=3)
+    inputs = record.errors(pose).values[list(record.input_indices)]
+    other = assur.load("zeng2019", l3=141.0, b=151.0, d=51.0, l7=2.0, l5=95.0)
+    solutions = other.direct(np.add(inputs, [0.5, -0.5, 0.0]))
+    near = np.array([item for item in solutions.poses if np.all(np.isfinite(item))])
+    moved = near[np.argmin(np.linalg.norm(near - pose, axis=1))]
+    first = record.errors(pose).sensitivity["l7"][:3] * 2.0
+    np.testing.assert_allclose(moved - pose, first, atol=0.05)
+
+
+def test_the_frame_takes_what_it_can_and_indices_grow_with_what_is_measured():
+    record = assur.load("fivebar")
+    poses = random_poses(record, 6)
+    own, framed = identification(record, poses), identification(record, poses, frame=True)
+    assert (own.rank, framed.rank) == (5, 8)
+    assert [part.words for part in framed.unidentifiable] == [
+        f"frame.{name} does not act" for name in ("z", "rx", "ry")
+    ]
+    turned = identification(record, poses, ["x", "y", "rz"])
+    assert turned.observability["O3"] >= own.observability["O3"] > 0
+    assert str(own).splitlines()[0] == "5 of 5 told by 6 poses, x, y"
+
+
+def test_nothing_told_is_nothing_observed():
+    none = Identification(("a",), ("x",), np.zeros((1, 1)), np.zeros((1, 1)), np.ones(1))
+    assert (none.rank, none.observability["O1"], none.unidentifiable[0].words) == (0, 0.0, "a does not act")
+
+
+def test_bad_poses_are_told():
+    record = assur.load("fivebar")
+    with pytest.raises(UsageError, match=r"pose 2 of fivebar is not reached"):
+        identification(record, np.array([[0.0, 224.0], [0.0, 900.0]]))
+    with pytest.raises(UnknownNameError, match="measured coordinate"):
+        identification(record, np.array([[0.0, 224.0]]), ["w"])
+    boxed = replace(record, box={"x": (500.0, 600.0), "y": (500.0, 600.0)})
+    with pytest.raises(UsageError, match="0 of 3 poses are met"):
+        random_poses(boxed, 3)
