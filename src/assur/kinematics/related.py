@@ -18,6 +18,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.still import assemblies_about_home
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.elimination import independent_columns
 from assur.numerics.least_squares import minimise
 
 FloatArray = NDArray[np.float64]
@@ -40,8 +41,6 @@ def related(record: MechanismRecord) -> tuple[tuple[int, ...], FloatArray] | Non
     >>> changes[-1].round(6)
     array([-1.,  1., -1.,  1.])
     """
-    from scipy.linalg import qr  # takes as long to load as all of a short answer
-
     home, units = home_values(record), joint_units(record)
     if joint_graph(record).turns:
         return None
@@ -50,7 +49,7 @@ def related(record: MechanismRecord) -> tuple[tuple[int, ...], FloatArray] | Non
     own = right[: int(np.sum(sizes > RELATED * np.max(sizes, initial=0.0)))]
     if not 0 < len(own) < len(home):
         return None
-    free = np.sort(qr(own, mode="r", pivoting=True)[1][: len(own)])
+    free = independent_columns(own)
     return tuple(free.tolist()), units[:, None] * np.linalg.solve(own[:, free], own).T / units[free]
 
 

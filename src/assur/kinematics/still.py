@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import RANK_GAP, assemble
+from assur.kinematics.closure import RANK_GAP, assemble, mobility
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.parallelograms import some_crossed
 from assur.kinematics.rates.motions import motions
@@ -59,7 +59,7 @@ def _still(record: MechanismRecord) -> tuple[list[str], BoolArray, FloatArray]:
     there = motions(record, home, RANK_GAP)
     near = assemblies_about_home(record, SAMPLES)
     names, values = _places(record, np.concatenate([home[None], near]))
-    ranks = motions(record, near, RANK_GAP).ranks.closure if len(near) else np.array([])
+    ranks = mobility(record, near).rank if len(near) else np.array([])
     usual = len(near) > SAMPLES // 2 and bool(np.all(ranks == there.ranks.closure))
     return names, np.asarray((np.ptp(values, axis=0) < STILL) & usual), values[0]
 

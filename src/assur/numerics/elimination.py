@@ -54,6 +54,21 @@ def chosen_pivots(examples: FloatArray, groups: Sequence[range]) -> tuple[Pivots
     return tuple(chosen)
 
 
+def independent_columns(matrix: FloatArray) -> NDArray[np.intp]:
+    """Places (r,), growing, of columns that span those of a matrix (r, n) of full rank: the largest of what is left.
+
+    >>> independent_columns(np.array([[1.0, 3.0, 3.0], [0.0, 1.0, 2.0]])).tolist()
+    [1, 2]
+    """
+    left, chosen = matrix.copy(), []
+    for _ in range(len(matrix)):
+        chosen.append(int(np.argmax(np.sum(left * left, axis=0))))
+        own = left[:, chosen[-1]] / np.linalg.norm(left[:, chosen[-1]])
+        left = left - np.outer(own, own @ left)
+        left[:, chosen] = 0.0
+    return np.sort(np.array(chosen, dtype=np.intp))
+
+
 def _next(left: FloatArray, used: NDArray[np.bool_]) -> tuple[int, int] | None:
     """Row and column of the next pivot among what is left (s, r, n)."""
     sizes = np.abs(left)

@@ -31,6 +31,9 @@ LINEAR = 1e-9
 AT_INFINITY = 1e-9
 """A root whose homogeneous coordinate is below this share of its largest one is at infinity."""
 
+TRIANGULAR = 1e-13
+"""Share of a matrix's norm below which what is under its diagonal is rounding: some times that of Schur's own form."""
+
 
 @dataclass(frozen=True, eq=False)
 class Roots:
@@ -176,10 +179,21 @@ def common_eigenvalues(groups: Sequence[Sequence[ComplexArray]]) -> ComplexArray
         below = np.linalg.pinv(sum(weight * part for weight, part in zip(weights, group, strict=True)))
         times += [below @ part for part in group]
     mixed = sum(weight * part for weight, part in zip(_unitary(size, seed=2)[1], times, strict=True))
-    from scipy.linalg import schur  # takes as long to load as all of a short answer
-
-    _, basis = schur(mixed, output="complex")
+    basis = _triangular_basis(mixed)
     return np.stack([np.diag(basis.conj().T @ part @ basis) for part in times])
+
+
+def _triangular_basis(matrix: ComplexArray) -> ComplexArray:
+    """A unitary basis in which a matrix (n, n) is upper triangular: of its eigenvectors where these are apart.
+
+    SciPy's takes as long to load as all of a short answer.
+    """
+    basis = np.linalg.qr(np.linalg.eig(matrix)[1])[0]
+    if np.max(np.abs(np.tril(basis.conj().T @ matrix @ basis, -1)), initial=0.0) > TRIANGULAR * np.linalg.norm(matrix):
+        from scipy.linalg import schur
+
+        basis = schur(matrix, output="complex")[1]
+    return np.asarray(basis)
 
 
 def _error(forms: ComplexArray, x: ComplexArray, y: ComplexArray) -> float:

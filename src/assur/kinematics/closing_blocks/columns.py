@@ -15,7 +15,7 @@ from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closure import RANK_GAP, Assembly, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import whole_orientation
-from assur.kinematics.rates.motions import general, general_share, motions
+from assur.kinematics.rates.motions import closure_values, general, general_share, motions
 from assur.kinematics.related import closed_as_related
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
@@ -66,10 +66,10 @@ def _sound(record: MechanismRecord, known: FloatArray, closed: Assembly) -> Floa
     """Known assemblies (K, n), home first, and those that close to all digits, are regular and as about home."""
     sound = closed.residual <= TO_ALL_DIGITS * characteristic_length(record)
     values = np.concatenate([known, closed.values[sound]])
-    at = motions(record, values, RANK_GAP)
-    least = at.values[:, int(general(record).closure) - 1] / at.values[:, 0]
+    sizes = closure_values(record, values)
+    least = sizes[:, int(general(record).closure) - 1] / sizes[:, 0]
     regular = (least > NEAR_SINGULAR * general_share(record)) | (np.arange(len(values)) == 0)
-    moving = at.ranks.freedoms >= len(record.inputs)
+    moving = values.shape[1] - np.sum(sizes > RANK_GAP * sizes[:, :1], axis=1) >= len(record.inputs)
     alike = np.array([not other for other in otherwise(record, values)], dtype=bool)
     return np.asarray(values[regular & moving & alike])
 

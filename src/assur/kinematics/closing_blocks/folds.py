@@ -43,7 +43,7 @@ MOST_STEPS = 20
 MOST_ENDS = 256
 """Assemblies whose pairs are looked at: as many more or less evenly among those that are given."""
 
-MOST_PAIRS = 48
+MOST_PAIRS = 24
 """Pairs of assemblies between which a fold is sought."""
 
 CLOSE = 0.5

@@ -26,7 +26,7 @@ from assur.model.pose import LENGTHS
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 SignArray = NDArray[np.int8]
-MOST_PAIRS = 16
+MOST_PAIRS = 6
 """Pairs that are led to one problem, for each sign; the nearest."""
 
 

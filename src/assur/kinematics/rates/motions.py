@@ -133,9 +133,13 @@ def closure_share(record: MechanismRecord, values: FloatArray) -> FloatArray:
     >>> 0.5 < float(closure_share(record, around_home(record)[0])) <= 1.0
     True
     """
-    closure = closure_jacobian(record, values) * joint_units(record)
-    sizes = np.linalg.svd(closure, compute_uv=False)
+    sizes = closure_values(record, values)
     return np.asarray(sizes[..., int(general(record).closure) - 1] / sizes[..., 0] / general_share(record))
+
+
+def closure_values(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Singular values (..., s) of the closure at joint values (..., n): those of `motions` at a third of its time."""
+    return np.asarray(np.linalg.svd(closure_jacobian(record, values) * joint_units(record), compute_uv=False))
 
 
 @lru_cache(maxsize=64)
