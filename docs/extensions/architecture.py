@@ -17,9 +17,9 @@ ROOT = Path(__file__).parents[2]
 PICTURE = Path("docs") / "images" / "architecture.svg"
 
 STOREYS = {
-    "what is drawn, written, printed": "cli view page report audit figures crosscheck export scene",
+    "what is drawn, written, printed": "cli view page report audit figures crosscheck export",
     "a mechanism with its analyses": "mechanism improved_topology derived_topology",
-    "analyses": "synthesis derivation certificates machine workspace singularity performance kinematics",
+    "analyses": "synthesis derivation certificates machine scene workspace singularity performance kinematics",
     "a mechanism as data": "joint_graph model topology joints",
     "tools": "results numerics cache storage errors verifier version work",
 }

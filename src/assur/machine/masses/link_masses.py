@@ -96,10 +96,9 @@ def _body(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:
         metre = METRES[record.unit]
         return _given(data, (np.zeros(3) if data.centre is None else data.centre) * metre, "origin")
     if data.profile is None and data.kg_per_m is None:
-        raise UsageError(
-            f"link {link} of {record.name}: made of {data.material}, but its sizes are not known",
-            hint="give it a profile, kg_per_m or a mass",
-        )
+        from assur.machine.masses.solids import of_solid  # which draws; few files ask for it
+
+        return of_solid(record, link, _density(record, link, data), str(data.material))
     return _of_bars(record, link, data)
 
 
@@ -167,10 +166,15 @@ def _weight(
         return data.mass / length, f"stated, spread over bars of {profile.name if profile else ''}"
     if data.kg_per_m is not None:
         return data.kg_per_m, f"bars of {data.kg_per_m:g} kg/m"
+    area = record.machine.profiles[data.profile or ""].area
+    return _density(record, link, data) * area, f"bars of {data.profile}, {data.material}"
+
+
+def _density(record: MechanismRecord, link: str, data: LinkData) -> float:
     density = record.machine.materials[data.material].density if data.material else None
-    if density is None or profile is None:
+    if density is None:
         raise UsageError(
             f"link {link} of {record.name}: no density of {data.material}",
             hint=f"say it in [materials]: {data.material} = {{ density = 7850 }}, in kg/m3",
         )
-    return density * profile.area, f"bars of {profile.name}, {data.material}"
+    return density
