@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.derivation.derivation import derive
 from assur.derivation.kept import derived_closed_form
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.printed_derivation import printed_derivation
@@ -45,6 +46,7 @@ UNLIKE = {
     "an Orthoglide": ["P[x] R[y] P(4R)[z] R[y]", "P[y] R[z] P(4R)[x] R[z]", "P[z] R[x] P(4R)[y] R[x]"],
     "hinges along short links": ["P[y] R[z] P(4R)[x] R[z]", "C[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "four limbs and a polynomial": 4 * ["R[z] R[z] R[z] P[z]"],
+    "four limbs, one with its slider below": [*3 * ["R[z] R[z] R[z] P[z]"], "P[z] R[z] R[z] R[z]"],
     "parallelograms in one plane": 3 * ["R[z] P(4R)[z] R[z]"],
     "two drives in one limb": ["R[z] R[z] R[z]", "R[z] R[z] P[x]"],
     "a limb with a loop in it across three directions": [
@@ -175,6 +177,26 @@ def test_limbs_that_are_unlike_have_a_closed_form_with_velocities_that_the_joint
     assert "parallel" in derived_closed_form(record)  # which is held against the joint graph
     equations = velocity_equations(analytic_solution(record, "inverse"))
     assert equations.jp.shape == equations.jq.shape == (len(record.inputs),) * 2
+
+
+@pytest.mark.deep
+def test_of_two_poses_that_nearly_meet_none_is_lost_in_the_digits_of_the_polynomial(tmp_path):
+    """Its roots, four near each other, are off by 1e-6 rad by its coefficients, and the last link would not reach."""
+    chains = parse_chains(3 * ["R[z] R[z] R[z] P[z]"] + ["P[z] R[z] R[z] R[z]"])
+    (tmp_path / "mechanism.toml").write_text(drafted(chains, tmp_path / "mechanism.toml").text, encoding="utf-8")
+    own = load_record(tmp_path)
+    (tmp_path / "closed_form.py").write_text(derive(own).closed_form(), encoding="utf-8")
+    record = load_record(
+        tmp_path, rA=200.70929748201542, l1=278.10908167995626, l2=41.982650539346835, e1=226.91896682823463,
+        rD=379.30687311246453, betaD=28.332940008307, l3=351.4594490067624, l4=261.6723703049913,
+        e2=304.46343189057535, rH=85.82677339729206, betaH=-96.84486089396,
+    )  # fmt: skip
+    inputs = [5.236464854483192, 4.970126713070832, -1.2488268031126308, -352.4483612694542]
+    derived, by_loops = (direct(record, inputs, method=method) for method in ("closed form", "loops"))
+    assert derived.complete
+    assert by_loops.complete
+    assert derived.poses[derived.exists] == pytest.approx(by_loops.poses[by_loops.exists], abs=APART)
+    assert len(derived) == 2
 
 
 @pytest.mark.deep

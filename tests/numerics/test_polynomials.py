@@ -62,6 +62,21 @@ def test_real_roots_of_known_position():
     assert py.roots(coefficients)[apart] == pytest.approx(wanted[apart], abs=1e-7)
 
 
+def test_roots_that_lie_together_are_told_apart_by_what_the_coefficients_are_of():
+    wanted = np.array([0.7, 0.7001, 0.71, 0.72, -0.4, 3.0])
+    rough = py.roots(np.polynomial.polynomial.polyfromroots(wanted) * (1 + 1e-13 * RANDOM.normal(size=7)))
+
+    def values(at):
+        gaps = at[..., None] - wanted
+        gaps[gaps == 0] = 1e-300
+        return np.abs(np.prod(gaps, axis=-1)), np.sum(1 / gaps, axis=-1)
+
+    assert np.max(np.abs(np.sort(rough.real) - np.sort(wanted))) > 1e-8
+    assert np.sort(py.approached(rough, values).real) == pytest.approx(np.sort(wanted), abs=1e-14)
+    with np.errstate(invalid="ignore"):
+        assert np.isinf(py.approached(np.append(rough, np.inf), values)[-1])
+
+
 def test_far_and_near_roots_at_once():
     wanted = np.array([1e-9, 1.0, 2.0, 1e9])
     found = py.roots(np.polynomial.polynomial.polyfromroots(wanted))

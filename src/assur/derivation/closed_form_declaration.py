@@ -32,6 +32,7 @@ class ClosedFormDeclaration(ClosedFormParts):
             extra = f", {signs!r}" if signs else ""
             degree = self.formulas.direct.branches
             kind = "angle" if self.formulas.three_quadrics is None else "plain"
+            extra += ", left_over=left_over" if kind == "angle" else ""
             lines.append(f'    direct=Eliminant("{self.unknown}", "{kind}", {degree}, coefficients, back{extra}),')
         lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
         quantities = [*self._quantity_list()]

@@ -60,18 +60,21 @@ class ClosedFormKernels(ClosedFormParts):
     def _polynomial(self, eliminant: AngleEliminant) -> Iterator[str]:
         """The kernels of a direct problem that ends in one polynomial."""
         solution, sign = self.formulas.direct, self._sign_argument
-        arguments = f"ns, p, inputs{sign}"
         cosine, sine = eliminant.direction.unknowns
         one = FreeNames({*solution.symbols.parameters, str(cosine), str(sine)}).named("one")
         last = eliminant.steps[-1].symbol
-        lines = [f"def coefficients({arguments}):"]
-        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self.unknown}/2)."""')
+        lines = [f"def left_over(ns, p, inputs, root{sign}):"]
+        lines.append(f'    """What vanishes at a root: homogeneous in cosine and sine of {self.unknown} and 1."""')
         lines += self._given("direct")
         lines += self._lines("direct", (*self._before, *eliminant.known))
-        lines.append("    (t,) = unknowns(1)")
-        lines.append(f"    {cosine}, {sine}, {one} = 1 - t * t, 2 * t, 1 + t * t")
+        lines.append(f"    {cosine}, {sine}, {one} = root")
         lines += self._lines("direct", eliminant.program(one))
-        text = f"coefficients_of({last}, {eliminant.degree + 2 * eliminant.spare + 1})"
+        yield "\n".join([*lines, f"    return {last}"])
+        lines = [f"def coefficients(ns, p, inputs{sign}):"]
+        lines.append(f'    """Coefficients, the constant term first, of the polynomial in tan({self.unknown}/2)."""')
+        lines.append("    (t,) = unknowns(1)")
+        call = f"left_over(ns, p, inputs, (1 - t * t, 2 * t, 1 + t * t){sign})"
+        text = f"coefficients_of({call}, {eliminant.degree + 2 * eliminant.spare + 1})"
         for _ in range(eliminant.spare):
             text = f"_over_circle({text})"
         yield "\n".join([*lines, f"    return {text}"])

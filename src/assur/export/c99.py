@@ -15,7 +15,7 @@ from typing import Any
 
 from assur.errors import UsageError
 from assur.export.answers_about_home import answers_about_home
-from assur.export.c99_text import HEAD, POLYNOMIAL, SELF_TEST
+from assur.export.c99_text import HEAD, LEFT_OVER, POLYNOMIAL, SELF_TEST
 from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.contract.kernel import Kernel, recorded
 from assur.kinematics.modes import Problem, sign_names
@@ -136,6 +136,8 @@ class _Source:
     def _problem(self, problem: Problem) -> Iterator[str]:
         if self.roots(problem) > 1 or (problem == "direct" and self.eliminant is not None):
             yield self._coefficients()
+            if self._polishes:
+                yield self._left_over()
         yield self._branch(problem)
         yield self._solver(problem)
 
@@ -181,6 +183,15 @@ class _Source:
             f"const double *sign, double *c)\n{{\n    const double root = 0.0;\n"
             f"    (void)p; (void)given; (void)sign; (void)root;\n{body}\n}}\n"
         )
+
+    @cached_property
+    def _polishes(self) -> bool:
+        return self.eliminant is not None and self.eliminant.left_over is not None
+
+    def _left_over(self) -> str:
+        kernel, name = self.kernels["direct"], "left over"
+        places = {name: kernel.outputs[name][name][0]}
+        return LEFT_OVER.format(name=self.name, body=self._body("direct", places, {name: ["value"]}))
 
     def _branch(self, problem: Problem) -> str:
         kernel, entries_of, targets = self.kernels[problem], dict[str, int](), dict[str, list[str]]()
@@ -266,6 +277,7 @@ class _Source:
                 f"        int real = polynomial_roots(c, {eliminant.roots}, {angle}, roots);",
                 f"        if (real < 0) return {self.name.upper()}_VANISHES;",
                 "        for (int r = 0; r < real; r++) {",
+                *([f"            roots[r] = {self.name}_nearer(p, {given}, sign, roots[r]);"] * self._polishes),
                 *_filled(self, problem, given, "roots[r]", signs, 12),
                 "        }",
             ]  # fmt: skip

@@ -125,6 +125,33 @@ static int polynomial_roots(const double *given, int most, int angle, double *ou
 }
 """.replace("            u_step:;\n", "")
 
+LEFT_OVER = """
+/* What vanishes at a root: its coefficients lose digits where roots lie together. */
+static double {name}_left_over(const {name}_parameters *p, const double *given, const double *sign, double root)
+{{
+    double value;
+    (void)p; (void)given; (void)sign;
+{body}
+    return value;
+}}
+
+/* A root of the coefficients, by Newton's steps that make the above smaller. */
+static double {name}_nearer(const {name}_parameters *p, const double *given, const double *sign, double root)
+{{
+    double value = {name}_left_over(p, given, sign, root);
+    for (int round = 0; round < 4; round++) {{
+        double slope = ({name}_left_over(p, given, sign, root + 1e-7) - value) / 1e-7;
+        double moved = root - value / slope, smaller;
+        if (!(fabs(moved - root) <= 1e-3)) break;
+        smaller = {name}_left_over(p, given, sign, moved);
+        if (!(fabs(smaller) < fabs(value))) break;
+        root = moved;
+        value = smaller;
+    }}
+    return root;
+}}
+"""
+
 SELF_TEST = """
 #ifdef {upper}_TEST
 #include <stdio.h>

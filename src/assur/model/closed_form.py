@@ -133,6 +133,8 @@ class Eliminant:
         coefficients: (ns, p, inputs[, sign]) -> the coefficients of one polynomial, the constant term first.
         back: (ns, p, inputs, root[, sign]) -> Branch; the root is a pair (cosine, sine) where it is an angle.
         signs: names of the signs; a pose and its mirror image may share a root and differ in one that only `back` uses.
+        left_over: (ns, p, inputs, (cosine, sine, 1)[, sign]) -> a number that vanishes at the roots of an angle and is
+            homogeneous in the last three. Coefficients lose digits where roots lie together, which this one keeps.
     """
 
     unknown: str
@@ -141,6 +143,7 @@ class Eliminant:
     coefficients: Callable[..., Sequence[Number]]
     back: Callable[..., Branch]
     signs: tuple[str, ...] = ()
+    left_over: Callable[..., Number] | None = None
 
     @property
     def roots(self) -> int:

@@ -114,6 +114,8 @@ def _direct(dry: _Dry, form: ClosedForm, tried: Callable[..., Any]) -> None:
         tried(form.direct.coefficients, partial(_row, form.direct.roots + 1, "coefficients"), ns, p, dry.inputs, *extra)
         root = dry.pair() if form.direct.kind == "angle" else dry.number()
         tried(form.direct.back, judge, ns, p, dry.inputs, root, *extra)
+        if form.direct.left_over is not None:
+            tried(form.direct.left_over, _number, ns, p, dry.inputs, (*dry.pair(), 1), *extra)
     elif isinstance(form.direct, PolynomialSystem):
         unknowns = tuple(dry.number() for _ in form.direct.unknowns)
         count = len(unknowns)

@@ -7,7 +7,7 @@ one in t = tan(angle/2) by `half_angle`; there a root at infinity is the angle p
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import zip_longest
 from typing import Any
 
@@ -129,21 +129,31 @@ def _finite_roots(coefficients: FloatArray) -> ComplexArray:
     companion = np.zeros((len(even), degree, degree))
     companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
     companion[:, :, -1] = -even[:, :-1] / even[:, -1:]
-    polished = _polished(even, np.linalg.eigvals(companion).astype(complex))
+    polished = approached(np.linalg.eigvals(companion).astype(complex), lambda at: _values(even, at))
     return np.asarray(np.sort_complex(polished) * np.exp2(power.astype(float))[:, None])
 
 
-def _polished(coefficients: FloatArray, points: ComplexArray) -> ComplexArray:
-    """Roots (N, d) after Aberth's steps; a step that does not make the polynomial smaller is not taken."""
-    value, logarithmic = _values(coefficients, points)
-    other = ~np.eye(points.shape[-1], dtype=bool)
-    for _ in range(POLISHING):
-        gaps = points[:, :, None] - points[:, None, :]
+def approached(
+    points: ComplexArray, values: Callable[[ComplexArray], tuple[FloatArray, ComplexArray]], steps: int = POLISHING
+) -> ComplexArray:
+    """Roots (..., d) of polynomials after Aberth's steps from points near them.
+
+    A step that does not make the polynomial smaller is not taken; points that are not finite stay.
+
+    Args:
+        points: all roots of each polynomial, nearly.
+        values: at points (..., d) the polynomial's size, and its derivative over it.
+        steps: at most so many.
+    """
+    value, logarithmic = values(points)
+    other = ~np.eye(points.shape[-1], dtype=bool) & np.isfinite(points)[..., None, :]
+    for _ in range(steps):
+        gaps = points[..., :, None] - points[..., None, :]
         push = np.sum(np.where(other & (gaps != 0), 1 / np.where(gaps == 0, 1, gaps), 0), axis=-1)
         denominator = logarithmic - push
         usable = (value > 0) & np.isfinite(denominator) & (denominator != 0)
         moved = points - np.where(usable, 1 / np.where(usable, denominator, 1), 0)
-        new_value, new_logarithmic = _values(coefficients, moved)
+        new_value, new_logarithmic = values(moved)
         better = new_value < value
         if not np.any(better):
             break

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,9 @@ from assur.numerics.number_types import Floats
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
+ComplexArray = NDArray[np.complex128]
+STEPS, STEP = 3, 1e-7
+"""From a root of the coefficients to that of the kernel that they are of, and the difference that says its slope."""
 ROOT = Margin("root", "1", "the polynomial has fewer real roots than its degree", unit=0)
 """The margin that every branch of an eliminant has: 0 where its root is real, else less by the imaginary part."""
 
@@ -139,10 +143,15 @@ def _every_root(record: MechanismRecord, eliminant: Eliminant, given: FloatArray
     extra = (sign_axes(eliminant.signs, batch_axes=2),) if eliminant.signs else ()
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         coefficients, rounding = coefficients_of(record, eliminant, given)
-        values, gap, count = (np.moveaxis(item, -1, -2) for item in _real(coefficients, rounding, eliminant.kind))
+        points = polynomials.roots(coefficients)
+        if eliminant.left_over is not None:
+            kernel = partial(eliminant.left_over, Floats(), kernel_dimensions(record), inputs)
+            points = polynomials.approached(points, lambda at: _left_over(lambda root: kernel(root, *extra), at), STEPS)
+        parts = _real(coefficients, points, rounding, eliminant.kind)
+        values, gap, count = (np.moveaxis(item, -1, -2) for item in parts)
         root = (np.cos(values), np.sin(values)) if eliminant.kind == "angle" else values
         branch = eliminant.back(Floats(), kernel_dimensions(record), inputs, root, *extra)
-    found = RootBranches(
+    branches = RootBranches(
         record=record,
         problem="direct",
         given=given,
@@ -152,7 +161,7 @@ def _every_root(record: MechanismRecord, eliminant: Eliminant, given: FloatArray
         dropped=np.zeros((len(given), eliminant.degree), dtype=bool),
         unsure=_by_problem(np.broadcast_to(_lost(coefficients)[..., None, :], values.shape)),
     )
-    return found, _by_problem(count)
+    return branches, _by_problem(count)
 
 
 def coefficients_of(record: MechanismRecord, eliminant: Eliminant, given: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -186,14 +195,25 @@ def _by_problem(values: NDArray[Any]) -> NDArray[Any]:
     return np.array(np.moveaxis(values, -1, 0).reshape(values.shape[-1], int(np.prod(values.shape[:-1]))))
 
 
-def _real(coefficients: FloatArray, rounding: FloatArray, kind: str) -> tuple[FloatArray, FloatArray, IntArray]:
+def _left_over(kernel: Callable[..., Any], roots: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+    """Size and logarithmic derivative of what vanishes at roots (*parts, N, d), the tangents of half an angle."""
+    tangent = np.moveaxis(roots, -1, -2)
+    size = np.maximum(1, np.abs(tangent) ** 2)
+    step = STEP * np.sqrt(size)
+    t = np.stack([tangent, tangent + step])
+    value, ahead = np.broadcast_to(kernel(((1 - t * t) / size, 2 * t / size, (1 + t * t) / size)), t.shape)
+    return np.abs(np.moveaxis(value, -1, -2)), np.moveaxis((ahead - value) / (step * value), -1, -2)
+
+
+def _real(
+    coefficients: FloatArray, points: ComplexArray, rounding: FloatArray, kind: str
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """Real values (..., d) of the unknown, rising, NaN last; how far from being real; how many roots lie there, or 0.
 
     Where roots lie together, a complex pair x +- i s is tried as the two values x + s and x - s.
     """
-    found = polynomials.roots(coefficients)
-    real, count = polynomials.nearness(coefficients, found, rounding)
-    place = polynomials.angle_of(found) if kind == "angle" else found
+    real, count = polynomials.nearness(coefficients, points, rounding)
+    place = polynomials.angle_of(points) if kind == "angle" else points
     with np.errstate(invalid="ignore"):
         values = np.where(real, place.real + np.where(count > 1, place.imag, 0), np.nan)
         gap = np.where(real, 0.0, np.nan_to_num(np.abs(place.imag), nan=1.0, posinf=1.0))

@@ -231,6 +231,8 @@ class _Writer:
             for k, value in enumerate(direct.coefficients(self.ns, self.p, inputs, *extra)):
                 self._put("coefficient", str(k), value)
             root = self._number(direct.unknown, direct.kind == "angle")
+            if direct.left_over is not None:
+                self._put("left over", "left over", direct.left_over(self.ns, self.p, inputs, (*root, 1), *extra))
             self._after(direct.back(self.ns, self.p, inputs, root, *extra), margins)
         elif direct is not None:
             self._after(direct(self.ns, self.p, inputs, self._signs(sign_names(self.record, "direct"))), margins)
