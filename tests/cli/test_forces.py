@@ -128,6 +128,12 @@ def test_near_a_singularity_it_is_told_who_bears_and_which_joint_moves(assur_cli
     assert "grows as one over the distance" in there.json["notes"][1]
 
 
+def test_near_the_border_it_is_told_which_actuator_runs_away(assur_cli):
+    run = assur_cli("forces", "zeng2019", "--pose", "-15.4714", "9.6849", "458.912935", "--json").json
+    assert run["status"] == "near_singular"
+    assert "while the pose moves by one, yA3 may move by 29202.7" in run["notes"][0]
+
+
 def test_what_is_held_is_mapped_over_a_plane(assur_cli, tmp_path):
     path = tmp_path / "held.csv"
     run = assur_cli("forces", "fivebar", "--capacity", "--map", "x,y", "--nodes", "5", "-o", str(path), "--json")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
-from assur.kinematics.status import Status
+from assur.kinematics.status import NEAR_SINGULAR, Status
 from assur.machine.forces.actuator_forces import ActuatorForces
-from assur.machine.forces.weakness import Weakness, loosest, unfelt, weakness
+from assur.machine.forces.weakness import Weakness, fastest, loosest, unfelt, weakness
 from assur.results.answers.forces import ShownWeakness
 from assur.results.plain_text import short
 
@@ -32,29 +33,36 @@ def notes(solved: ActuatorForces) -> Iterator[str]:
     """As sentences; none where nothing is near."""
     status = Status(int(solved.status[0])).name
     if status == "near_singular":
-        own = weakness(solved.motion)
-        if own.moved > WEAK:
+        own, (times, ratio) = weakness(solved.motion), fastest(solved.motion)
+        if times > 1.0 / NEAR_SINGULAR:
+            yield (
+                f"near a singularity: while the pose moves by one, {_bearing(solved, ratio)} may move by "
+                f"{short(times)} (lengths in characteristic lengths); mass and bias grow with the square of that"
+            )
+        elif own.moved > WEAK:
             joint = loosest(solved.motion)
             yield f"near a singularity: the loops nearly lose a constraint and reactions grow; joint {joint} moves most"
-            return
-        yield (
-            f"near a singularity: a load that moves the platform {_moves(own)} asks {_bearing(solved, own)} for up to "
-            f"{short(float(solved.growth[0]))} N or N m for each newton, half as far from the singularity for twice as "
-            f"much; joint {own.joint} moves most then"
-        )
+        if own.moved <= WEAK:
+            yield (
+                f"near a singularity: a load that moves the platform {_moves(own)} asks {_bearing(solved, own.drives)} "
+                f"for up to {short(float(solved.growth[0]))} N or N m for each newton, half as far from the "
+                f"singularity for twice as much; joint {own.joint} moves most then"
+            )
     if status in ("parallel", "comprehensive", "constraint"):
         own = weakness(solved.motion)
         yield (
             f"while the actuators stand the platform moves {_moves(own)}, and joint {own.joint} most: near by, "
-            f"{_bearing(solved, own)} would bear a load against it with a force that grows as one over the distance"
+            f"{_bearing(solved, own.drives)} would bear a load against it with a force that grows as one over the "
+            "distance"
         )
     if status in ("serial", "comprehensive", "undecided") and (names := unfelt(solved.motion)):
         yield f"{_list(names)} can move while the pose stays as it is"
 
 
-def _bearing(solved: ActuatorForces, own: Weakness) -> str:
-    largest = float(np.max(np.abs(own.drives)))
-    drives = zip(solved.record.drives, own.drives, strict=True)
+def _bearing(solved: ActuatorForces, ratio: NDArray[np.float64]) -> str:
+    """Names of the actuators that have most of what they share in a ratio (d,)."""
+    largest = float(np.max(np.abs(ratio)))
+    drives = zip(solved.record.drives, ratio, strict=True)
     return _list([item.name for item, share in drives if abs(share) >= FELT * largest])
 
 

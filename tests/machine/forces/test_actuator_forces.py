@@ -35,6 +35,17 @@ def test_a_load_at_the_pose_of_table_1(zeng):
     assert np.isnan(answer.kinetic_energy).all()
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e-4, 2e-5])
+def test_nearly_at_a_singularity_forces_are_those_of_the_relation_of_velocities(zeng, share):
+    """Where links 9 and 10 nearly lie along Y: what they nearly let go is no motion that nothing drives."""
+    w = share * 280.0
+    pose = [-39.03225806451612, 0.0, 199.3603687 - w]
+    jp, jq = zeng.velocity_map(pose).jp, zeng.velocity_map(pose).jq
+    answer = zeng.forces(pose, load=[0, 0, -100], gravity=False)
+    assert answer.growth[0] > 0.1 / share
+    np.testing.assert_allclose(answer.forces[0], np.linalg.solve(np.linalg.solve(jq, jp).T, [0, 0, 100]), rtol=1e-9)
+
+
 def test_what_moves_along_y_moves_as_one_body(zeng):
     record = weighed(zeng)
     answer = forces(record, POSE, acceleration=[0, 1000, 0], gravity=False)

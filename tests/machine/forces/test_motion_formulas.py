@@ -7,6 +7,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.kinematics.status import Status
 from assur.machine.forces.motion_formulas import difference, motion_formulas
 from assur.model.registry import load_record
 from weighed import weighed
@@ -20,6 +21,19 @@ WRITTEN = ["orthoglide", "linear_delta_4r", "three_crr", "three_rrc", "three_rrr
 def test_they_are_the_numbers_of_the_joint_graph(name):
     """With bodies whose centres and inertias lie anywhere, and rotors."""
     assert difference(motion_formulas(weighed(load_record(name)))) < 1e-10
+
+
+def test_they_hold_up_to_the_border_where_the_numbers_have_a_status():
+    """Where the third limb is nearly stretched: a rate of the pose asks for any number of its actuator's."""
+    record = assur.load("zeng2019")
+    own = motion_formulas(record)
+    border = 458.9129351803  # of z at this x and y: M3 = 0
+    poses = np.array([[-15.4714, 9.6849, border - away] for away in (1.0, 1e-2, 1e-4, 1e-6, 1e-7)])
+    mass, weight, _ = own(poses)
+    answer = record.forces(poses)
+    assert [Status(int(code)).name for code in answer.status] == ["regular"] * 2 + ["near_singular"] * 3
+    np.testing.assert_allclose(answer.mass_matrix, mass, rtol=1e-7)
+    np.testing.assert_allclose(answer.gravity, weight, rtol=1e-7, atol=1e-9)
 
 
 @pytest.mark.deep

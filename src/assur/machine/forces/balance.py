@@ -131,7 +131,7 @@ def _status(instant: Instant, moves: bool) -> NDArray[np.int8]:
     """Of each configuration; one that moves where the pose's rates are not free is not determined."""
     output, given = instant.singular_output, instant.singular_input
     status = np.full(output.shape, int(Status.regular), dtype=np.int8)
-    for name in ("output", "closure"):
+    for name in ("output", "input", "closure"):
         near = np.nan_to_num(instant.measures[name], nan=1.0) < NEAR_SINGULAR
         status[near] = int(Status.near_singular)
     status[given] = int(Status.serial)

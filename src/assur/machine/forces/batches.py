@@ -128,7 +128,7 @@ class Batch:
         """
         units = pose_units(self.record) / drive_units(self.record)[:, None]
         driven, backward = drives[0] * units, drives[1] / units.T
-        sizes = np.linalg.norm(driven, axis=(-1, -2))
+        sizes = np.linalg.norm(driven, axis=(-1, -2))  # at least the largest singular value
         size, inverse = self._row("size", numbers), self._row("inverse", numbers)
         left, among, gaps = (numbers[self.program.rows(kind)] for kind in ("left", "among", "square"))
         clear = np.isfinite(sizes) & np.isfinite(inverse)
@@ -140,7 +140,9 @@ class Batch:
         closure = 1.0 / np.sqrt(size * inverse) / general_share(self.record)
         doubtful = clear & ~(closure > CLEAR * NEAR_SINGULAR)
         closure[doubtful] = closure_share(self.record, values[doubtful])
-        least = np.minimum(output / np.sqrt(1.0 + output**2), closure)
+        doubtful = clear & (sizes > 1.0 / (CLEAR * NEAR_SINGULAR))
+        sizes[doubtful] = np.linalg.svd(driven[doubtful], compute_uv=False)[:, 0]
+        least = np.minimum(output / np.sqrt(1.0 + output**2), np.minimum(closure, 1.0 / np.sqrt(1.0 + sizes**2)))
         return clear & (least > WIDE * SINGULAR), least < NEAR_SINGULAR
 
     def _matrix(self, kind: str, numbers: FloatArray, rows: int, columns: int) -> FloatArray:

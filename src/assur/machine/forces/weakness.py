@@ -66,6 +66,19 @@ def unfelt(motion: ClosedMotion, place: int = 0) -> tuple[str, ...]:
     return tuple(item.name for item, rate in zip(record.drives, moved, strict=True) if rate > SINGULAR)
 
 
+def fastest(motion: ClosedMotion, place: int = 0) -> tuple[float, FloatArray]:
+    """How many times as fast as the pose the actuators move at most, and in which ratio (d,): a unit vector.
+
+    >>> import assur
+    >>> times, ratio = fastest(assur.load("orthoglide").forces([0, 0, 0], gravity=False).motion)
+    >>> round(times, 9), ratio.shape
+    (1.0, (3,))
+    """
+    per_unit = motion.drives @ motion.of_pose[place] * pose_units(motion.record)
+    left, sizes, _ = np.linalg.svd(per_unit / drive_units(motion.record)[:, None])
+    return float(sizes[0]), left[:, 0]
+
+
 def weakness(motion: ClosedMotion, place: int = 0) -> Weakness:
     """Of one of the configurations of a motion.
 

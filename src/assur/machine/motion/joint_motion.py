@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.pose import platform_frame, twist_rates
 from assur.kinematics.rates.acceleration import angle_accelerations
-from assur.kinematics.rates.motions import SINGULAR, general_share
+from assur.kinematics.rates.motions import SINGULAR, general, general_share
 from assur.kinematics.turns import joint_units
 from assur.kinematics.validation.check import METRES
 from assur.machine.motion.inertia import LinkInertia
@@ -25,6 +25,8 @@ from assur.model.pose import ANGLES, LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+ROUNDED = 1e-14
+"""A rate that all joints together make no larger than this share of the largest is rounding."""
 MASSLESS = 1e-12
 """A freedom whose inertia is below this share of the largest has none: the spin of a slender rod."""
 
@@ -60,13 +62,13 @@ class ClosedMotion:
 
     @cached_property
     def _split(self) -> tuple[FloatArray, FloatArray]:
-        """Motions (N, n, k) for each rate of the pose, and those (N, n, n) that leave the pose as it is."""
-        return _pseudo_inverse(self.pose, self.free, pose_units(self.record))
+        """Motions (N, n, k) for each rate of the pose, and those (N, n, ·) that leave the pose as it is."""
+        return _pseudo_inverse(self.pose, self.free, pose_units(self.record), int(general(self.record).pose))
 
     @cached_property
     def idle(self) -> FloatArray:
-        """Motions (N, n, n) that leave every input as it is, spins among them; columns that are none are zero."""
-        return _pseudo_inverse(self.drives, self.free, drive_units(self.record))[1]
+        """Motions (N, n, ·) that leave every input as it is, spins among them; columns that are none are zero."""
+        return _pseudo_inverse(self.drives, self.free, drive_units(self.record), int(general(self.record).inputs))[1]
 
     @cached_property
     def of_pose(self) -> FloatArray:
@@ -75,7 +77,7 @@ class ClosedMotion:
         return along + self._carried(still, -(self.inertia.matrix @ along))
 
     def _carried(self, still: FloatArray, needed: FloatArray) -> FloatArray:
-        """How motions (N, n, n) that nothing drives answer to forces (N, n, ·)."""
+        """How motions (N, n, ·) that nothing drives answer to forces (N, n, ·)."""
         across = np.swapaxes(still, -1, -2)
         own = across @ self.inertia.matrix @ still
         sizes, vectors = np.linalg.eigh(own)
@@ -199,15 +201,15 @@ def _platform_signs(record: MechanismRecord) -> FloatArray:
     return np.asarray(own.of_links[own.links.index(record.platform.link)])
 
 
-def _pseudo_inverse(rates: FloatArray, free: FloatArray, units: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Free motions (N, n, r) for each of r rates (N, r, n), and those (N, n, n) that leave all of them as they are."""
+def _pseudo_inverse(rates: FloatArray, free: FloatArray, units: FloatArray, rank: int) -> tuple[FloatArray, FloatArray]:
+    """Free motions (N, n, r) for each of r rates (N, r, n), and those (N, n, n - rank) that leave them as they are.
+
+    How many rates are independent is what it is in general: near a singularity one is small, and counts all the same.
+    """
     carried = rates @ free / units[:, None]
     left, sizes, right = np.linalg.svd(carried, full_matrices=True)
-    size = np.linalg.norm(rates * np.linalg.norm(free, axis=-1)[:, None] / units[:, None], axis=(-1, -2))
-    kept = sizes > SINGULAR * size[:, None]
-    count = sizes.shape[-1]
+    kept = sizes[:, :rank] > ROUNDED * sizes[:, :1]
     across = np.swapaxes(right, -1, -2)
-    reciprocal = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)
-    inverse = (across[..., :count] * reciprocal[:, None]) @ np.swapaxes(left[..., :count], -1, -2)
-    still = across * (np.arange(across.shape[-1]) >= kept.sum(axis=-1)[:, None])[:, None]
-    return free @ inverse / units, free @ still
+    reciprocal = np.where(kept, 1.0 / np.where(kept, sizes[:, :rank], 1.0), 0.0)
+    inverse = (across[..., :rank] * reciprocal[:, None]) @ np.swapaxes(left[..., :rank], -1, -2)
+    return free @ inverse / units, free @ across[..., rank:]
