@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from math import prod
 from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
@@ -94,7 +95,9 @@ def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[
     own = _own_row(record, data)
     if own is not None:
         yield _solutions(record, data, [own], style)
-    yield f"All {len(data.solutions)} are one way of each limb; --all lists them:"
+    many = _many(data)
+    listed = "them" if many == len(data.solutions) else f"{len(data.solutions)} of them near home"
+    yield f"All {many} are one way of each limb; --all lists {listed}:"
     driven = zip(data.input_names, record.drives, strict=True)
     units = {name: record.angle if one.coordinate.kind == "angle" else record.unit for name, one in driven}
     rows = []
@@ -106,10 +109,17 @@ def _by_limbs(record: Mechanism, data: InverseAnswer, style: Style) -> Iterable[
     yield table(("limb", "ways", "inputs"), rows, left=("limb", "inputs"))
 
 
+def _many(data: InverseAnswer) -> int:
+    """How many choices of one way of each limb there are."""
+    return prod(len(limb.ways) for limb in data.limbs)
+
+
 def _headline(record: Mechanism, data: Positions, branches: int) -> str:
     """What the rows that answer say, that of home or of the file's own mode first."""
     among = f"among {count(branches, 'branch')}" if branches > 1 else "in this mode"
     found = count(len(data.solutions), "solution")
+    if isinstance(data, InverseAnswer) and data.right.startswith("not all"):
+        found, among = f"{_many(data)} solutions", "by each limb alone"
     if data.right.startswith("not proved") and not data.solutions and not data.curves:
         return "nothing was found, not proved"
     if data.status == "unreachable":
@@ -300,6 +310,8 @@ def _completeness(record: Mechanism, data: Positions) -> str:
     how = f": {right}" if right.startswith("all ") else f", by {right}"
     if data.complete:
         return f"Complete for {model}{how}."
+    if right.startswith("not all"):
+        return f"These are {right}."
     if right.startswith("not proved"):
         return f"Whether these are all is {right}."
     return f"Only this mode was asked for, of {model}{how}."

@@ -100,6 +100,8 @@ def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed
             return turn
     by_limbs = inverse_by_limbs if problem == "inverse" else direct_by_conditions
     own = by_limbs(record, given, crossed=crossed)
+    if own.limbs and not own.complete:
+        return own
     if own.complete:
         return own if crossed else _uncrossed(record, own)
     pair = merged_pair(record, problem)
@@ -206,7 +208,7 @@ def _assemblies(
             turn = replace(
                 turn, complete=False, right=f"an assembly that was met by chance is none of these: {turn.right}"
             )
-        if turn.complete or method == "loops" or (crossed and len(turn.joints)):
+        if turn.complete or turn.limbs or method == "loops" or (crossed and len(turn.joints)):
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, bool(turn.kept), limbs=turn.limbs)
         why = f"; no other way is complete, since {_why(turn)}"
     interrupted = False

@@ -10,6 +10,7 @@ from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
+from assur.kinematics.platforms import inverse as platforms_inverse
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
@@ -92,6 +93,37 @@ def test_parallelograms_of_hinges_give_what_the_loops_have_in_turn(name):
         assert (loops.complete, solutions.complete) == (True, True)
         assert len(loops.joints) == len(solutions.joints)
         assert len(distinct(record, np.concatenate([loops.joints, solutions.joints]))) == len(loops.joints)
+
+
+def test_of_too_many_choices_those_near_home_are_listed_and_how_many_there_are(monkeypatch):
+    """Turns of screws make millions; here a list is made short."""
+    monkeypatch.setattr(platforms_inverse, "MOST", 40)
+    monkeypatch.setattr(platforms_inverse, "NEAREST", 20)
+    record = load_record("gough_stewart")
+    home = home_values(record)
+    solutions = inverse_by_limbs(record, pose_of(record, home))
+    assert not solutions.complete
+    assert solutions.right.startswith("not all: there are 64, each limb alone, for all its roots")
+    assert [len(limb.values) for limb in solutions.limbs] == 6 * [2]
+    assert len(solutions.joints) == 16
+    assert np.min(np.linalg.norm((solutions.joints - home)[:, record.input_indices], axis=1)) < 1e-6
+
+
+@pytest.mark.deep
+def test_screws_beside_universal_joints_have_every_turn_that_their_rods_reach(tmp_path, capsys):
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), "--limb", "H[z] U S", "--count", "6"]) == 0
+    record = load_record(path)
+    pose = pose_of(record, home_values(record))
+    limbs = inverse(record, pose).limbs
+    met = search(record, "inverse", pose).joints
+    assert len(met) > 100
+    for limb in limbs:
+        own = [index for index in limb.indices if index in record.input_indices]
+        ways = limb.values[:, [limb.indices.index(index) for index in own]]
+        assert len(ways) > 8
+        near = np.unique(met[:, own].round(5))
+        assert np.max(np.min(np.abs(near[:, None] - ways.ravel()), axis=1)) < 1e-4
 
 
 def test_an_own_mechanism_with_parallelograms_is_complete(tmp_path):

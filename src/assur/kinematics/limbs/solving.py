@@ -23,6 +23,7 @@ from assur.kinematics.limbs.point_closure import (
     distance_closure,
     point_closure,
 )
+from assur.kinematics.limbs.screw_closure import screw_closure
 from assur.kinematics.limbs.serial import (
     ElementaryMotion,
     NotSerialError,
@@ -187,8 +188,14 @@ def _about_point(limb: SerialLimb, centre: _Centre, displaced: Frame) -> tuple[R
 def _point_closure(
     motions: Sequence[ElementaryMotion], point: FloatArray, place: FloatArray, size: float
 ) -> PointClosure:
-    """A screw slides a point of its axis, and is solved as the slide."""
-    slides = [_slide_of(motions, k, point, place, size) for k in range(len(motions))]
+    """A screw slides a point of its axis, and is solved as the slide; one that does not has an equation of its own."""
+    try:
+        slides = [_slide_of(motions, k, point, place, size) for k in range(len(motions))]
+    except NotSerialError:
+        screws = [k for k, motion in enumerate(motions) if motion.kind == "screw"]
+        if len(screws) > 1:
+            raise
+        return screw_closure(motions, screws[0], point, place, size)
     closure = point_closure(slides, point, place, size)
     return replace(closure, values=closure.values / [motion.advance or 1.0 for motion in motions])
 

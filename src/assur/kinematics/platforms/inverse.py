@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from math import prod
@@ -18,6 +19,7 @@ from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
 from assur.kinematics.limbs.serial import NotSerialError
 from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, unsolved
+from assur.kinematics.loops.parallelograms import parallelograms
 from assur.kinematics.platforms.conditions import (
     UncertainConditionsError,
     conditions_at,
@@ -29,14 +31,16 @@ from assur.kinematics.platforms.open_poses import OpenPoses, poses_by_limb
 from assur.kinematics.platforms.poses import Poses, poses_under
 from assur.kinematics.pose import error_of
 from assur.kinematics.search import distinct
-from assur.kinematics.turns import counts_turns, with_turns_of_home
+from assur.kinematics.turns import counts_turns, joint_units, periodic, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
-MOST = 4096
-"""Assemblies that are listed at most."""
+MOST, NEAREST = 4096, 256
+"""Assemblies that are listed at most; of more, as the turns of screws make them, so many near home."""
+NOT_ALL = "not all"
+"""How the right of solutions begins of which every limb's ways are known, and some of their choices are listed."""
 OPEN = "the quadrics that limbs say of the platform leave it infinitely many poses"
 AS_GIVEN = 1e-5
 """By how much a pose may miss what is given, in characteristic lengths and rad, before loops are closed."""
@@ -67,10 +71,12 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
         sets = [[closed_limb(limb, frame, size, driven) for limb in series] for frame in frames]
     except (NotSerialError, MovingLimbError, UncertainConditionsError) as error:
         return unsolved(record, False, f"not proved, since {error}")
-    if sum(prod(len(own.values) for own in limbs) for limbs in sets) > MOST:
-        return unsolved(record, False, f"not proved, since there are more than {MOST}")
     right = _right(poses, len(frames), series, sets)
-    pieces = [_starts(record, limbs) for limbs in sets] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
+    many = sum(prod(len(own.values) for own in limbs) for limbs in sets)
+    if many > MOST and (len(sets) > 1 or parallelograms(record)):
+        return unsolved(record, False, f"not proved, since there are more than {MOST}")
+    listed = sets if many <= MOST else [_near_home(record, limbs) for limbs in sets]
+    pieces = [_starts(record, limbs) for limbs in listed] or [(np.zeros((0, len(record.coordinates))), np.zeros(0))]
     starts, bent = (np.concatenate(part) for part in zip(*pieces, strict=True))
     if counts_turns(record):  # a nut threaded on another turn closes as well
         starts, same = with_turns_of_home(record, starts)
@@ -83,7 +89,37 @@ def inverse_by_limbs(record: MechanismRecord, pose: FloatArray, *, crossed: bool
     doubtful = len(joints) != len(sure) or (len(sure) < len(starts) and len(question.closed(sure)) < len(joints))
     if doubtful or not poses.sure:
         return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", looked)
-    return LoopSolutions(joints, True, right, looked, limbs=tuple(sets[0]) if len(sets) == 1 else ())
+    limbs = tuple(sets[0]) if len(sets) == 1 else ()
+    if many > MOST:
+        right = f"{NOT_ALL}: there are {many}, {right}; {len(joints)} near home are listed"
+    return LoopSolutions(joints, many <= MOST, right, looked, limbs=limbs)
+
+
+def _near_home(record: MechanismRecord, limbs: Sequence[LimbSolutions]) -> list[LimbSolutions]:
+    """Those ways of each limb whose inputs are nearest to home's, as many as have `NEAREST` choices at most.
+
+    Other joint values may be another's that puts every point where home has it.
+    """
+    home, turning, units = home_values(record), periodic(record), joint_units(record)
+    apart, ordered = [], []
+    for own in limbs:
+        driven = [k for k, index in enumerate(own.indices) if index in record.input_indices]
+        columns = [own.indices[k] for k in driven]
+        way = own.values[:, driven] - home[columns]
+        turns = turning[columns]
+        way[:, turns] = np.remainder(way[:, turns] + np.pi, 2.0 * np.pi) - np.pi
+        far = np.linalg.norm(way / units[columns], axis=1)
+        order = np.argsort(far, kind="stable")
+        apart.append(far[order])
+        ordered.append(replace(own, values=own.values[order], bent=own.bent[order]))
+    counts = [len(own.values) for own in limbs]
+    while prod(counts) > NEAREST:
+        farthest = max((k for k, count in enumerate(counts) if count > 1), key=lambda k: apart[k][counts[k] - 1])
+        counts[farthest] -= 1
+    return [
+        replace(own, values=own.values[:count], bent=own.bent[:count])
+        for own, count in zip(ordered, counts, strict=True)
+    ]
 
 
 def _right(poses: Poses | OpenPoses, real: int, series: Sequence[Limb], sets: Sequence[Sequence[LimbSolutions]]) -> str:
