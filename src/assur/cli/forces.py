@@ -47,7 +47,9 @@ def forces(
     ] = None,
     latex: Annotated[
         str | None,
-        Parameter(metavar="FILE", help="Write mass matrix, gravity and rates of the inputs as formulas, for pdflatex."),
+        Parameter(
+            metavar="FILE", help="Write the equation of motion and the actuators' forces as formulas, for pdflatex."
+        ),
     ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
@@ -63,7 +65,8 @@ def forces(
     is not in the file. 4: the mode does not reach the pose. With --capacity:
     which forces on the platform the actuators hold at rest, at a pose or, with
     --map, over the workspace, and how fast they move the platform. With --latex:
-    the equation of motion in formulas of the pose, by the closed form.
+    mass matrix, bias, gravity and the actuators' forces in formulas of pose,
+    rates and accelerations, by the closed form.
 
     For example:
         assur forces zeng2019 --pose -15.4714 9.6849 456.3315 --load 0,0,-100

@@ -40,6 +40,6 @@ def outcome(record: Mechanism, mode: str, path: str) -> Outcome:
 
 def _shown(answer: MotionFormulasAnswer) -> Iterable[RenderableType]:
     yield heading(f"{answer.mechanism}, equation of motion of working mode {answer.mode}")
-    yield f"mass matrix, gravity and rates of the inputs in {answer.operations} operations, by the closed form"
-    yield f"held against the forces at {POSES} poses: they differ by {answer.difference:.1e} of the largest"
+    yield f"actuator forces, mass matrix, bias and gravity in {answer.operations} operations, by the closed form"
+    yield f"held against the numbers in {POSES} motions: they differ by {answer.difference:.1e} of the largest"
     yield f"written: {answer.written}"

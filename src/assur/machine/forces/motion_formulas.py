@@ -1,4 +1,4 @@
-"""The mass matrix, gravity and the rates of the inputs as formulas of the pose: by the closed form, link for link.
+"""The equation of motion as formulas of the pose, its rates and accelerations: by the closed form, link for link.
 
 Places of links follow from the joint values of the closed form, and their derivatives from the rules of calculus. What
 is the same at poses drawn at random is taken for one number: sums of squares of a cosine and a sine, turns that cancel
@@ -7,47 +7,63 @@ out. So the formulas are those of the mechanism with its dimensions, and are hel
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.configuration import Configuration
-from assur.joint_graph.geometry import geometry
+from assur.joint_graph.geometry import characteristic_length, geometry
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.rates.acceleration import joints_in_mode
 from assur.kinematics.status import closed_form_of
 from assur.kinematics.validation.check import METRES
 from assur.machine.forces.actuator_forces import forces
+from assur.machine.forces.motion_terms import terms, vector
 from assur.machine.masses.link_masses import all_masses
-from assur.machine.motion.inertia import rotors
 from assur.machine.motion.pivots import graph_pivots
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
-from assur.numerics.recording.tape import MEANING, Operation, Recorder, Tape
-from assur.numerics.vectors import Matrix, Vector, add, apply, dot, minus, plus, times, transposed
+from assur.numerics.recording.derivatives import done, exact, is_zero
+from assur.numerics.recording.tape import MEANING, Recorder, Tape
+from assur.numerics.vectors import add, apply, minus, times
 
 FloatArray = NDArray[np.float64]
 POSES, TRIED = 12, 400
 """At how many poses numbers are compared, of how many that are drawn."""
+PUSH = 10.0
+"""In N: how large forces are in which numbers are compared."""
 SAME = 1e-10
 """Share of the largest by which numbers differ that are the same."""
 
 
+class MotionTerms(NamedTuple):
+    """Of N poses: mass matrix (N, k, k), bias (N, k), gravity (N, k), rates of the inputs (N, d, k), forces (N, d)."""
+
+    mass: FloatArray
+    bias: FloatArray
+    gravity: FloatArray
+    driven: FloatArray
+    forces: FloatArray
+
+
 @dataclass(frozen=True, eq=False)
 class MotionFormulas:
-    """A straight line from the pose to the terms of D^T tau = M a + c + g - w, in kg, N and the mechanism's unit.
+    """A straight line from a motion to D^T tau = r = u (M a + c) + g - f, in kg, N, the mechanism's unit and s.
+
+    The metres u of the unit make newtons of M a + c; what turns is driven by N times the unit.
 
     Attributes:
         record, mode: of which mechanism, in which working mode.
-        tape: outputs "M i,j" (j >= i), "g i" and "D k,i"; given are the pose, dimensions and masses.
-        values: (u,) of the dimensions and the masses.
+        tape: outputs "D k,i", "g i", "M i,j" (j >= i), "c i", "r i" and "tau k", those that are not zero; given are the
+            pose, its rates, its accelerations, the force on the platform, and the dimensions.
+        values: (u,) of the dimensions.
     """
 
     record: MechanismRecord
@@ -55,21 +71,27 @@ class MotionFormulas:
     tape: Tape
     values: FloatArray
 
-    def __call__(self, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """M (N, k, k), g (N, k) and D (N, d, k) at poses (N, k)."""
+    def __call__(
+        self,
+        poses: FloatArray,
+        velocity: FloatArray | None = None,
+        acceleration: FloatArray | None = None,
+        load: FloatArray | None = None,
+    ) -> MotionTerms:
+        """The terms at poses (N, k), their rates and accelerations (N, k), and forces (N, k) in N on the platform."""
         count, k, d = len(poses), len(self.record.platform.pose), len(self.record.drives)
-        outputs = self.tape.evaluate(list(poses.T), self.values.tolist())
-        mass, weight, driven = np.zeros((count, k, k)), np.zeros((count, k)), np.zeros((count, d, k))
+        given = [np.zeros((count, k)) if part is None else part for part in (velocity, acceleration, load)]
+        outputs = self.tape.evaluate(list(np.concatenate([poses, *given], axis=1).T), self.values.tolist())
+        shapes = {"M": (k, k), "c": (k,), "g": (k,), "D": (d, k), "tau": (d,)}
+        numbers = {kind: np.zeros((count, *shape)) for kind, shape in shapes.items()}
         for name, value in outputs.items():
             kind, place = name.split()
-            first, *rest = map(int, place.split(","))
-            if kind == "g":
-                weight[:, first] = value
-            elif kind == "D":
-                driven[:, first, rest[0]] = value
-            else:
-                mass[:, first, rest[0]] = mass[:, rest[0], first] = value
-        return mass, weight, driven
+            places: list[Any] = [int(number) for number in place.split(",")]
+            if kind in numbers:
+                numbers[kind][(slice(None), *places)] = value
+            if kind == "M":
+                numbers[kind][(slice(None), *reversed(places))] = value
+        return MotionTerms(*numbers.values())
 
 
 def motion_formulas(record: MechanismRecord, mode: str | None = None) -> MotionFormulas:
@@ -86,23 +108,29 @@ def motion_formulas(record: MechanismRecord, mode: str | None = None) -> MotionF
     """
     mode = mode or record.modes.default_working
     _refuse(record)
-    poses = _poses(record, mode)
+    drawn = _drawn(record, mode)
     first, values = _places(record, mode)
-    moved = _terms(record, _simplified(first, poses, values))
-    return MotionFormulas(record, mode, _simplified(moved, poses, values), np.array(values))
+    moved = terms(record, _simplified(first, drawn, values))
+    return MotionFormulas(record, mode, _simplified(moved, drawn, values), np.array(values))
 
 
 def difference(formulas: MotionFormulas) -> float:
-    """The largest difference from `actuator_forces` at poses drawn at random, as a share of the largest number."""
-    record = formulas.record
-    poses = _poses(record, formulas.mode, seed=1)  # others than those at which numbers were taken for the same
-    answer, (mass, weight, driven) = forces(record, poses, mode=formulas.mode), formulas(poses)
-    lengths = np.array([item.coordinate.kind == "length" for item in record.drives])
-    balanced = np.einsum("ndk,nd->nk", driven, answer.forces / np.where(lengths, 1.0, METRES[record.unit]))
-    return max(
-        float(np.max(np.abs(own - other)) / max(float(np.max(np.abs(other))), 1e-9))
-        for own, other in ((mass, answer.mass_matrix), (weight, answer.gravity), (balanced, answer.gravity))
-    )
+    """The largest difference from `actuator_forces` in motions drawn at random, as a share of the largest number."""
+    record, unit = formulas.record, METRES[formulas.record.unit]
+    drawn = _drawn(record, formulas.mode, seed=1)  # others than those at which numbers were taken for the same
+    poses, velocity, acceleration, load = np.split(drawn, 4, axis=1)
+    pushed = np.zeros((len(poses), 3))
+    pushed[:, [LENGTHS.index(name) for name in record.platform.pose]] = load
+    answer = forces(record, poses, velocity, acceleration, pushed, mode=formulas.mode)
+    told = formulas(poses, velocity, acceleration, load)
+    turning = np.array([item.coordinate.kind == "angle" for item in record.drives])
+    own = told.mass, unit * told.bias, told.gravity, told.forces * np.where(turning, unit, 1.0)
+    numbers = answer.mass_matrix, answer.bias, answer.gravity, answer.forces
+    inert = unit * np.einsum("nij,nj->ni", answer.mass_matrix, acceleration)
+    borne = np.stack([inert, answer.bias, answer.gravity])
+    largest = [np.max(np.abs(part)) for part in (answer.mass_matrix, borne, borne, answer.forces)]
+    pairs = zip(own, numbers, largest, strict=True)
+    return max(float(np.max(np.abs(first - second)) / size) for first, second, size in pairs)
 
 
 def _refuse(record: MechanismRecord) -> None:
@@ -117,13 +145,17 @@ def _refuse(record: MechanismRecord) -> None:
         raise UsageError(f"{name}: no formulas of motion: a spin that nothing drives is told by no pose")
 
 
-def _poses(record: MechanismRecord, mode: str, seed: int = 0) -> FloatArray:
+def _drawn(record: MechanismRecord, mode: str, seed: int = 0) -> FloatArray:
+    """Poses, rates, accelerations and forces (N, 4 k) in which numbers are compared."""
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
-    poses = np.random.default_rng(seed).uniform(low, high, size=(TRIED, len(low)))
+    random = np.random.default_rng(seed)
+    poses = random.uniform(low, high, size=(TRIED, len(low)))
     reached = np.isfinite(joints_in_mode(record, poses, mode)).all(axis=1)
     if np.sum(reached) < POSES:
         raise UsageError(f"{record.name}: mode {mode} reaches too few poses of the box to compare numbers at")
-    return np.asarray(poses[reached][:POSES])
+    kept = poses[reached][:POSES]
+    sizes = np.repeat([characteristic_length(record)] * 2 + [PUSH], len(low))
+    return np.concatenate([kept, sizes * random.normal(size=(len(kept), 3 * len(low)))], axis=1)
 
 
 def _places(record: MechanismRecord, mode: str) -> tuple[Tape, list[float]]:
@@ -145,12 +177,11 @@ def _places(record: MechanismRecord, mode: str) -> tuple[Tape, list[float]]:
     branch = form.inverse(recorder, p, pose, SimpleNamespace(**{name: float(sign) for name, sign in signs.items()}))
     joints = form.joints(recorder, p, branch.core)
     state = {name: _numbers(joints, name, joint) for name, joint in record.joints.items()}
-    exact = geometry(record).mapped(lambda number: int(number) if number in (0.0, 1.0, -1.0) else number)
-    configuration = Configuration(joint_graph(record), exact, state)
+    configuration = Configuration(joint_graph(record), geometry(record).mapped(exact), state)
     outputs: dict[str, Any] = {}
     for link, body in all_masses(record).carried(record.platform.link).items():
         rotation, origin = configuration.frames[link]
-        centre = add(origin, apply(rotation, _vector(map(_exact, body.centre / METRES[record.unit]))))
+        centre = add(origin, apply(rotation, vector(map(exact, body.centre / METRES[record.unit]))))
         outputs |= {f"c {link},{k}": number for k, number in enumerate(centre)}
         if np.any(body.inertia):
             outputs |= {f"r {link},{k}": number for k, number in enumerate((*rotation[0], *rotation[1], *rotation[2]))}
@@ -168,132 +199,9 @@ def _numbers(joints: Mapping[str, Any], name: str, joint: Any) -> list[Any]:
     return [number for value in own for number in (value if isinstance(value, tuple) else (value,))]
 
 
-def _terms(record: MechanismRecord, places: Tape) -> Tape:
-    """Mass matrix, gravity and rates of the inputs from places and their derivatives."""
-    recorder, count = Recorder(), len(record.platform.pose)
-    entries = _again(recorder, places)
-    rates = [_derivative(places, entries, k) for k in range(count)]
-    unit, known = METRES[record.unit], all_masses(record)
-    bodies = known.carried(record.platform.link)
-
-    def number(name: str, k: int | None = None) -> Any:
-        place = places.outputs.get(name)  # what is not there is zero
-        return 0 if place is None else (entries if k is None else rates[k])[place]
-
-    mass: dict[tuple[int, int], Any] = {}
-    weight: dict[int, Any] = {}
-    outputs: dict[str, Any] = {}
-    for link, body in bodies.items():
-        moving = [_vector(number(f"c {link},{a}", k) for a in range(3)) for k in range(count)]
-        turned = []
-        if np.any(body.inertia):
-            rotation = _rows(number(f"r {link},{a}") for a in range(9))
-            for k in range(count):
-                change = _rows(number(f"r {link},{a}", k) for a in range(9))
-                x, y, z = (dot(change[i], rotation[j]) for i, j in ((2, 1), (0, 2), (1, 0)))
-                turned.append(apply(transposed(rotation), (x, y, z)))
-        inertia = _rows(_exact(x) for x in (body.inertia / unit**2).ravel())
-        for i in range(count):
-            pull = dot(_vector(map(_exact, known.gravity)), moving[i])
-            weight[i] = minus(weight.get(i, 0), times(_exact(body.mass), pull))
-            for j in range(i, count):
-                own = times(_exact(body.mass), dot(moving[i], moving[j]))
-                if turned:
-                    own = plus(own, dot(turned[i], apply(inertia, turned[j])))
-                mass[i, j] = plus(mass.get((i, j), 0), own)
-    driven = {}
-    for place, item in enumerate(record.drives):
-        for k in range(count):
-            if item.coordinate.kind == "length":
-                driven[place, k] = number(f"q {place}", k)
-            else:
-                cosine, sine = number(f"cos {place}"), number(f"sin {place}")
-                turning = times(cosine, number(f"sin {place}", k))
-                driven[place, k] = minus(turning, times(sine, number(f"cos {place}", k)))
-    for place, item in enumerate(record.drives):
-        rotor = rotors(record)[item.coordinate.index] / (1.0 if item.coordinate.kind == "length" else unit**2)
-        for i, j in mass:
-            mass[i, j] = plus(mass[i, j], times(_exact(rotor), times(driven[place, i], driven[place, j])))
-    outputs |= {f"M {i},{j}": value for (i, j), value in mass.items()}
-    outputs |= {f"g {i}": value for i, value in weight.items()}
-    outputs |= {f"D {place},{k}": value for (place, k), value in driven.items()}
-    return recorder.tape({name: value for name, value in outputs.items() if not _zero(value)})
-
-
-def _rows(numbers: Iterable[Any]) -> Matrix:
-    a, b, c, d, e, f, g, h, i = numbers
-    return (a, b, c), (d, e, f), (g, h, i)
-
-
-def _vector(numbers: Iterable[Any]) -> Vector:
-    x, y, z = numbers
-    return x, y, z
-
-
-def _exact(number: float) -> Any:
-    return int(number) if number in (0.0, 1.0, -1.0) else float(number)
-
-
-def _zero(number: Any) -> bool:
-    return type(number) is int and number == 0
-
-
-def _again(recorder: Recorder, tape: Tape) -> list[Any]:
-    """All entries of a tape, recorded once more; written numbers 0, 1 and -1 as integers, which leave no trace."""
-    given = {"varying": (iter(tape.varying), recorder.varying), "uniform": (iter(tape.uniform), recorder.uniform)}
-    entries: list[Any] = []
-    for operation in tape.operations:
-        if operation.name in given:
-            names, record = given[operation.name]
-            entries.append(record(next(names)))
-        else:
-            entries.append(_done(recorder, operation, [entries[k] for k in operation.arguments]))
-    return entries
-
-
-def _done(recorder: Recorder, operation: Operation, numbers: Sequence[Any]) -> Any:
-    """An operation, with what 0, 1 and -1 make of it left out."""
-    name = operation.name
-    if name == "number":
-        return _exact(operation.number)
-    if name == "root":
-        return recorder.sqrt(numbers[0])
-    if name == "negative":
-        return minus(0, numbers[0])
-    if name == "/":
-        a, b = numbers
-        return 0 if _zero(a) else a if b == 1 and type(b) is int else a / b
-    return {"+": plus, "-": minus, "*": times}[name](*numbers)
-
-
-def _derivative(tape: Tape, entries: Sequence[Any], place: int) -> list[Any]:
-    """How fast all entries of a tape change with one of the varying numbers."""
-    rates: list[Any] = []
-    given = iter(range(len(tape.varying)))
-    for k, operation in enumerate(tape.operations):
-        a, b = (operation.arguments * 2)[:2] if operation.arguments else (0, 0)
-        if operation.name == "varying":
-            rate: Any = int(next(given) == place)
-        elif not operation.arguments:
-            rate = 0
-        elif operation.name in ("+", "-"):
-            rate = (plus if operation.name == "+" else minus)(rates[a], rates[b])
-        elif operation.name == "*":
-            rate = plus(times(rates[a], entries[b]), times(entries[a], rates[b]))
-        elif operation.name == "/":
-            rest = minus(rates[a], times(entries[k], rates[b]))
-            rate = 0 if _zero(rest) else rest / entries[b]
-        elif operation.name == "root":
-            rate = 0 if _zero(rates[a]) else rates[a] / (2 * entries[k])
-        else:
-            rate = minus(0, rates[a])
-        rates.append(rate)
-    return rates
-
-
-def _simplified(tape: Tape, poses: FloatArray, values: Sequence[float]) -> Tape:
+def _simplified(tape: Tape, drawn: FloatArray, values: Sequence[float]) -> Tape:
     """A tape in which numbers that are the same at all poses are one, and those that do not vary are written."""
-    numbers = _numbers_at(tape, poses, values)
+    numbers = _numbers_at(tape, drawn, values)
     recorder, entries = Recorder(), list[Any]()
     given = {"varying": (iter(tape.varying), recorder.varying), "uniform": (iter(tape.uniform), recorder.uniform)}
     known: dict[tuple[float, ...], Any] = {}
@@ -308,11 +216,11 @@ def _simplified(tape: Tape, poses: FloatArray, values: Sequence[float]) -> Tape:
         elif (other := _key(-value)) in known:
             entry = minus(0, known[other])
         else:
-            entry = _done(recorder, operation, [entries[k] for k in operation.arguments])
+            entry = done(recorder, operation, [entries[k] for k in operation.arguments])
         if np.ptp(value) > 0.0:
             known.setdefault(_key(value), entry)
         entries.append(entry)
-    return recorder.tape({name: entries[k] for name, k in tape.outputs.items() if not _zero(entries[k])})
+    return recorder.tape({name: entries[k] for name, k in tape.outputs.items() if not is_zero(entries[k])})
 
 
 def _whole(value: FloatArray) -> int | None:
@@ -328,15 +236,15 @@ def _key(value: FloatArray) -> tuple[float, ...]:
     return (float(f"{size:.8g}"), *np.round(value / (size or 1.0), 8).tolist())
 
 
-def _numbers_at(tape: Tape, poses: FloatArray, values: Sequence[float]) -> list[FloatArray]:
-    given = {"varying": iter(poses.T), "uniform": iter([np.full(len(poses), value) for value in values])}
+def _numbers_at(tape: Tape, drawn: FloatArray, values: Sequence[float]) -> list[FloatArray]:
+    given = {"varying": iter(drawn.T), "uniform": iter([np.full(len(drawn), value) for value in values])}
     numbers: list[Any] = []
     for operation in tape.operations:
         arguments = [numbers[k] for k in operation.arguments]
         if operation.name in given:
             numbers.append(next(given[operation.name]))
         elif operation.name == "number":
-            numbers.append(np.full(len(poses), operation.number))
+            numbers.append(np.full(len(drawn), operation.number))
         elif operation.name == "root":
             numbers.append(np.sqrt(np.maximum(arguments[0], 0.0)))
         else:

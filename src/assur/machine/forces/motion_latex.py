@@ -1,10 +1,12 @@
-r"""The equation of motion as a LaTeX document: definitions in the order in which they are needed, then M, g and D."""
+r"""The equation of motion as a LaTeX document: term for term, each after the definitions that it needs first."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
+from assur.kinematics.validation.check import METRES
 from assur.machine.forces.motion_formulas import MotionFormulas
 from assur.numerics.recording.tape import Operation, Tape
 
@@ -18,6 +20,14 @@ HEAD = r"""\documentclass[10pt,a4paper]{article}
 LONG = 90
 """Letters of a formula from which on it has a name of its own."""
 DIGITS = 12
+TERMS = {
+    "Rates of the inputs": "D",
+    "Gravity": "g",
+    "Mass matrix": "M",
+    "Bias": "c",
+    "What is needed along each coordinate": "r",
+    "Forces of the actuators": "tau",
+}
 SUM, PRODUCT, ATOM = 1, 2, 3
 GREEK = ("alpha", "beta", "gamma", "delta", "theta", "phi", "psi", "eta", "mu", "rho")
 
@@ -31,7 +41,11 @@ def document(formulas: MotionFormulas) -> str:
     >>> text.count("begin{document}"), "M}_{11} &=" in text
     (1, True)
     """
-    return HEAD + "\n".join(_lines(formulas)) + "\n\\end{document}\n"
+    text = "\n".join(_lines(formulas))
+    order = re.findall(r"^\\sigma_\{(\d+)\} &=", text, re.MULTILINE)
+    numbers = {old: str(place) for place, old in enumerate(order, 1)}
+    text = re.sub(r"(?<=\\sigma_\{)\d+", lambda old: numbers[old[0]], text)
+    return HEAD + text + "\n\\end{document}\n"
 
 
 def letter(name: str) -> str:
@@ -49,34 +63,46 @@ def letter(name: str) -> str:
 def _lines(formulas: MotionFormulas) -> Iterator[str]:
     record, tape = formulas.record, formulas.tape
     pose = [letter(name) for name in record.platform.pose]
-    name = record.name.replace("_", r"\_")
+    name, unit = record.name.replace("_", r"\_"), record.unit
+    metre = "" if METRES[unit] == 1.0 else "u "
     yield rf"\section*{{Equation of motion of {name}, working mode ${formulas.mode}$}}"
-    yield rf"With the pose $\mathbf x = ({', '.join(pose)})$ in {record.unit}, its rates $\mathbf v$, its accelerations"
-    yield r"$\mathbf a$ and the force $\mathbf f$ on the platform, the actuators exert $\boldsymbol\tau$:"
-    yield r"\[ \mathbf D^{\mathsf T} \boldsymbol\tau = \mathbf M \mathbf a + \mathbf c + \mathbf g - \mathbf f, \qquad"
-    yield r"\mathbf c_i = \sum_{j,k} \Bigl(\frac{\partial \mathbf M_{ij}}{\partial \mathbf x_k}"
-    yield r"- \frac12 \frac{\partial \mathbf M_{jk}}{\partial \mathbf x_i}\Bigr) \mathbf v_j \mathbf v_k \]"
+    yield rf"With the pose $\mathbf x = ({', '.join(pose)})$ in {unit}, its rates in {unit}/s, its"
+    yield r"accelerations, and the force $\mathbf f$ on the platform in N, the actuators exert $\boldsymbol\tau$:"
+    yield rf"\[ \mathbf D^{{\mathsf T}} \boldsymbol\tau = \mathbf r = {metre}(\mathbf M \ddot{{\mathbf x}} + \mathbf c)"
+    yield r"+ \mathbf g - \mathbf f \]"
+    if metre:
+        yield rf"with $u = {_number(METRES[unit])}$\,m/{unit}."
     if len(record.drives) > len(pose):
         yield r"With more actuators than freedoms $\boldsymbol\tau$ is the least that does."
-    yield rf"Masses are in kg, $\mathbf g$ and $\mathbf f$ in N, torques in N\,{record.unit}. Masses and places without"
-    yield "a letter are those of the file. The dimensions are"
+    yield rf"Masses are in kg, forces in N, torques in N\,{unit}. Masses and places without a letter are those of the"
+    yield "file. The dimensions are"
     values = dict(zip(tape.uniform, formulas.values.tolist(), strict=True))
-    used = [name for name in tape.uniform if name in values]
-    yield f"${', '.join(f'{letter(name)} = {_number(values[name])}' for name in used)}$."
+    yield f"${', '.join(f'{letter(name)} = {_number(value)}' for name, value in values.items())}$."
     book = _Book(tape)
-    yield r"\subsection*{Definitions}"
-    yield from _aligned(book.definitions)
-    for title, kind in (("Mass matrix", "M"), ("Gravity", "g"), ("Rates of the inputs", "D")):
+    for title, kind in TERMS.items():
+        rows = {own: entry for own, entry in tape.outputs.items() if own.split()[0] == kind}
         yield rf"\subsection*{{{title}}}"
-        rows = [(own, entry) for own, entry in tape.outputs.items() if own.startswith(kind)]
-        yield from _aligned([(_indexed(own), book.text(entry)[0]) for own, entry in rows])
+        yield from _aligned([*book.needed(rows), *book.rows(rows)])
         yield "Entries that are not there are zero." + (r" $\mathbf M$ is symmetric." if kind == "M" else "")
+
+
+def _given(name: str) -> str:
+    r"""What is given for each motion: coordinates of the pose, their rates and accelerations, forces on the platform.
+
+    >>> print(_given("x'"), _given("x''"), _given("f_x"), _given("y"))
+    \dot{x} \ddot{x} f_{x} y
+    """
+    stem = name.rstrip("'")
+    if stem != name:
+        return rf"\{'d' * (len(name) - len(stem))}ot{{{letter(stem)}}}"
+    return f"f_{{{name[2:]}}}" if name.startswith("f_") else letter(name)
 
 
 def _indexed(name: str) -> str:
     """`M 0,1` as a matrix entry, counted from 1."""
     kind, place = name.split()
-    return rf"\mathbf{{{kind}}}_{{{''.join(str(int(number) + 1) for number in place.split(','))}}}"
+    bold = r"\boldsymbol{\tau}" if kind == "tau" else rf"\mathbf{{{kind}}}"
+    return rf"{bold}_{{{''.join(str(int(number) + 1) for number in place.split(','))}}}"
 
 
 def _aligned(pairs: list[tuple[str, str]]) -> Iterator[str]:
@@ -87,27 +113,43 @@ def _aligned(pairs: list[tuple[str, str]]) -> Iterator[str]:
 
 
 class _Book:
-    """Texts of the entries of a tape; what is used more than once, or is long, has a definition."""
+    """Texts of the entries of a tape; what is used more than once, or is long, has a definition, an output its name."""
 
     def __init__(self, tape: Tape) -> None:
         uses = Counter(k for operation in tape.operations for k in operation.arguments)
         names = {"varying": iter(tape.varying), "uniform": iter(tape.uniform)}
-        self.definitions: list[tuple[str, str]] = []
+        outputs = {entry: name for name, entry in reversed([*tape.outputs.items()])}
+        self._tape = tape
+        self._definitions: dict[int, tuple[str, str]] = {}  # by entry, those that are still to be written
         self._texts: list[tuple[str, int]] = []
         for k, operation in enumerate(tape.operations):
             if operation.name in names:
-                self._texts.append((letter(next(names[operation.name])), ATOM))
+                self._texts.append((_given(next(names[operation.name])), ATOM))
                 continue
             text, bond = _written(operation, [self._texts[a] for a in operation.arguments])
             simple = operation.name in ("number", "negative") and len(text) < LONG // 3
-            if not simple and (uses[k] > 1 or (uses[k] == 1 and len(text) > LONG)):
-                self.definitions.append((rf"\sigma_{{{len(self.definitions) + 1}}}", text))
-                text, bond = self.definitions[-1][0], ATOM
+            if not simple and (k in outputs or uses[k] > 1 or (uses[k] == 1 and len(text) > LONG)):
+                count = sum(name.startswith(r"\sigma") for name, _ in self._definitions.values())
+                name = _indexed(outputs[k]) if k in outputs else rf"\sigma_{{{count + 1}}}"
+                self._definitions[k] = name, text
+                text, bond = name, ATOM
             self._texts.append((text, bond))
 
-    def text(self, entry: int) -> tuple[str, int]:
-        """Of an entry, and how firmly it holds together."""
-        return self._texts[entry]
+    def needed(self, rows: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+        """Definitions, each once, that rows ask for and that were not written before."""
+        asked, left = set[int](), list(rows.values())
+        while left:
+            arguments = self._tape.operations[left.pop()].arguments
+            left += {*arguments} - asked
+            asked |= {*arguments}
+        return (self._definitions.pop(k) for k in sorted(asked & {*self._definitions}))
+
+    def rows(self, rows: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+        """Entries of a term, but those that definitions needed."""
+        for name, entry in rows.items():
+            own, text = self._definitions.pop(entry, (_indexed(name), self._texts[entry][0]))
+            if own != text:
+                yield own, text
 
 
 def _written(operation: Operation, texts: list[tuple[str, int]]) -> tuple[str, int]:
