@@ -2,6 +2,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from matplotlib.colors import LogNorm
 
 import assur
 from assur.errors import UsageError
@@ -36,10 +37,11 @@ def test_every_index_has_a_map_on_the_same_axes(name):
     for axes, (key, item) in zip(maps, found.maps.items(), strict=True):
         coloured = [mesh for mesh in axes.collections if mesh.get_array() is not None]
         assert len(coloured) == int(np.any(np.isfinite(item.values)))
-        if key in INDICES and INDICES[key].power == 0:
-            assert coloured[0].get_clim() == (0.0, 1.0)
+        if key in INDICES and not INDICES[key].unbounded and coloured:
+            assert coloured[0].get_clim() == (0.0, item.most.value)
             assert coloured[0].colorbar.extend == "neither"
         elif coloured:
+            assert isinstance(coloured[0].norm, LogNorm) == (key in INDICES)
             clipped = np.nanmax(item.values) > coloured[0].get_clim()[1] * (1 + 1e-9)
             assert coloured[0].colorbar.extend == ("max" if clipped else "neither")
             assert coloured[0].get_clim()[1] <= item.most.value * (1 + 1e-12)
@@ -84,7 +86,7 @@ def test_an_index_more_is_one_entry_and_its_map_its_title_and_the_caption_follow
     assert any(title.endswith(r"$\tau$ (mm/rad)") for title in titles)
     first, second = INDEX_MAPS.caption(context).split(";")[:2]
     assert r"LTI}$ and $\omega$ lie between" in first
-    assert r"and $\tau$ end at" in second
+    assert r"and $\tau$, by decades, end at" in second
     ends = [axes.collections[0].get_clim()[1] for axes in drawing.figure.axes if axes.get_xlabel()]
-    assert ends[-3] == 1.0
+    assert ends[-3] == drawing.data["maps"]["ratio"]["most"]["value"]
     assert ends[-2] < drawing.data["maps"]["growing"]["most"]["value"]

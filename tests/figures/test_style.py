@@ -4,8 +4,10 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
 
-from assur.figures import configuration, sketch, style
+from assur.figures import configuration, plane_map, plots, sections, sketch, style
 from assur.scene import part
 from assur.scene.mesh import rgb
 
@@ -39,12 +41,39 @@ def closest(colours, vision):
     return min((difference(one, two, vision), one, two) for one, two in combinations(colours, 2))
 
 
+IN_GREY = 10.0
+"""Least difference of lightness: what is left of colours on a printer without them."""
+
+
+@pytest.mark.parametrize(
+    "colours",
+    [
+        pytest.param(style.SERIES[:4], id="series"),
+        pytest.param(sketch.CHAINS[:4], id="chains"),
+        pytest.param(plots.LOCI[:4], id="loci"),
+        pytest.param((plots.FREE, plots.CLOSE), id="areas"),
+        pytest.param(sections.BORDERS, id="borders"),
+    ],
+)
+def test_colours_stay_apart_in_grey(colours):
+    """The first four; what is drawn in more colours has dashes, hatches or numbers besides."""
+    lightness = [lab(colour, "normal")[0] for colour in colours]
+    assert min(abs(one - two) for one, two in combinations(lightness, 2)) >= IN_GREY
+
+
+def test_the_colours_of_maps_grow_lighter_all_along():
+    steps = [lab(to_hex(colour), "normal")[0] for colour in colormaps[plane_map.COLOURS](np.linspace(0, 1, 33))]
+    assert min(np.diff(steps)) > 1.0
+
+
 @pytest.mark.parametrize("vision", VISION)
 @pytest.mark.parametrize(
     "colours",
     [
         pytest.param(style.SERIES, id="series"),
         pytest.param(sketch.CHAINS, id="chains"),
+        pytest.param(plots.LOCI, id="loci"),
+        pytest.param(sections.BORDERS, id="borders"),
         *(
             pytest.param((*part.LINKS, part.DRIVE, part.STAGE, grey), id=f"parts-{grey}")
             for grey in (part.STEEL, part.DARK, part.PLATE)

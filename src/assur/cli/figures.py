@@ -27,21 +27,34 @@ def figures(
             name="--format",
             consume_multiple=1,
             metavar="FORMAT",
-            help="Of png, pdf, svg, json; default is all but svg.",
+            help="Of png, pdf, svg, tex, json; default is all but svg.",
         ),
-    ] = ("png", "pdf", "json"),
+    ] = ("png", "pdf", "tex", "json"),
+    width: Annotated[
+        str,
+        Parameter(
+            metavar="WIDTH",
+            help="Of a page: ieee (88.9 mm), ieee2 (182), elsevier (90), elsevier1.5 (140), elsevier2 (190), or mm.",
+        ),
+    ] = "",
     shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
-    """Draw the figures of a mechanism, each also as data.
+    r"""Draw the figures of a mechanism, each also as data.
 
-    Files are named by what a figure shows: workspace.pdf. An old file is
-    replaced whole or not at all.
+    Files are named by what a figure shows: workspace.pdf. Beside each stands
+    LaTeX that puts it into a paper, workspace.tex: \input{workspace}. An old
+    file is replaced whole or not at all.
+
+    With --width, figures fit a column or a page of a journal, drawn for it:
+    letters stay 7 to 9 points, and panels stand below one another where it is
+    narrow. Fonts are embedded.
 
     For example:
         assur figures zeng2019 -o out/figures
         assur figures zeng2019 --only structure model --format svg
+        assur figures zeng2019 --width ieee --format pdf tex
     """
     record = shared.mechanism(mechanism)
     from assur.cli import drawings
 
-    return drawings.outcome(record, output, only, formats, shared)
+    return drawings.outcome(record, output, only, formats, width, shared)

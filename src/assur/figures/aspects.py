@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import dress, symbol, value_words
+from assur.figures.page import HIGHEST, legend_above, side_by_side
 from assur.figures.plots import limits_words, no_workspace
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, FigureKind
@@ -45,7 +46,7 @@ PATCH = 0.003
 LARGE = 0.4
 """Rectangles of this share of the largest one's width are large enough for a label."""
 
-LEFT, BOTTOM, TITLE, TOP, GAP, PANEL = 14.0, 11.0, 8.0, 12.0, 6.0, 70.0
+LEFT, BOTTOM, TITLE, TOP, GAP, PANEL, LEAST = 14.0, 11.0, 8.0, 3.0, 6.0, 70.0, 60.0
 """Margins, the room for a title below a panel, that between panels and the width of one, in mm."""
 
 
@@ -67,32 +68,30 @@ def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) ->
         raise UsageError(f"only {aspects.names[0]} matters for these aspects; a picture needs two coordinates")
     across, upward = aspects.names[:2]
     cuts = _cuts(context, aspects)
-    room = float(np.prod([np.ptp(aspects.box.intervals[aspects.box.axis(name)]) for name in (across, upward)]))
-    columns, rows = min(2, len(cuts)), -(-len(cuts) // 2)
-    tall = PANEL * _aspect(aspects, across, upward)
-    width = LEFT + columns * PANEL + (columns - 1) * (GAP + LEFT) + 4.0
+    whole = float(np.prod([np.ptp(aspects.box.intervals[aspects.box.axis(name)]) for name in (across, upward)]))
+    columns = min(side_by_side(context.page, 2, LEAST), len(cuts))
+    rows = -(-len(cuts) // columns)
     below = BOTTOM + (TITLE if len(aspects.names) > 2 else 0.0)
-    height = TOP + 3.5 * ((min(len(aspects.aspects), NAMED) + 5) // 4) + rows * (tall + below)
+    room = (context.page - LEFT - 4.0 - (columns - 1) * (GAP + LEFT)) / columns
+    slope = _aspect(aspects, across, upward)
+    wide = min(PANEL, room, ((HIGHEST - TOP) / rows - below) / slope)
+    tall = wide * slope
+    width = LEFT + columns * wide + (columns - 1) * (GAP + LEFT) + 4.0
+    height = TOP + rows * (tall + below)
     figure = new_figure(width, height)
     for k, value in enumerate(cuts):
-        start = LEFT + (k % columns) * (PANEL + GAP + LEFT)
+        start = LEFT + (k % columns) * (wide + GAP + LEFT)
         low = (rows - 1 - k // columns) * (tall + below) + below
-        axes = figure.add_axes((start / width, low / height, PANEL / width, tall / height))
-        _panel(axes, aspects, value, PATCH * room)
+        axes = figure.add_axes((start / width, low / height, wide / width, tall / height))
+        _panel(axes, aspects, value, PATCH * whole)
         if path is not None and value is None:
             _way(axes, path)
         dress(context, axes, aspects.box, (across, upward))
         if value is not None:
             title = f"({chr(97 + k)}) {symbol(aspects.names[2])} = {value_words(context, aspects.names[2], value)}"
-            figure.text((start + PANEL / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
+            figure.text((start + wide / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
     signs = f"signs of {_factors(context, aspects)}" if aspects.naming else None
-    figure.legend(
-        handles=_legend(aspects, path if cuts == [None] else None),
-        loc="upper center",
-        ncols=4,
-        title=signs,
-        title_fontsize=SMALL,
-    )
+    legend_above(figure, _legend(aspects, path if cuts == [None] else None), title=signs, title_fontsize=SMALL)
     return Drawing(figure, _data(aspects, cuts, path))
 
 

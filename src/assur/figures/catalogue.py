@@ -11,7 +11,7 @@ from assur.errors import Interrupted, UnknownNameError
 from assur.figures.aspects import ASPECTS
 from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
-from assur.figures.encode import FORMATS, encoded
+from assur.figures.encode import FORMATS, USUAL, encoded
 from assur.figures.flow import FLOW
 from assur.figures.force_maps import FORCE_MAPS
 from assur.figures.force_polytope import FORCE_POLYTOPE
@@ -19,6 +19,7 @@ from assur.figures.graph import GRAPH
 from assur.figures.index_maps import INDEX_MAPS
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION
 from assur.figures.joint_forces import JOINT_FORCES
+from assur.figures.latex import snippet
 from assur.figures.model import MODEL
 from assur.figures.parasitic import PARASITIC
 from assur.figures.planes import PLANES_FIGURE
@@ -30,7 +31,7 @@ from assur.figures.solid import SOLID
 from assur.figures.solutions import SOLUTIONS
 from assur.figures.spec import Drawing, FigureKind, FigureSpec
 from assur.figures.structure import STRUCTURE
-from assur.figures.style import styled
+from assur.figures.style import MILLIMETRE, styled
 from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
@@ -134,11 +135,17 @@ def draw(record: MechanismRecord, name: str, context: Context | None = None) -> 
     return drawing(record, name, context).figure
 
 
+def size(context: Context, name: str) -> tuple[float, float]:
+    """Width and height of a figure in mm, to 0.1 mm."""
+    width, height = drawing(context.record, name, context).figure.get_size_inches() / MILLIMETRE
+    return round(float(width), 1), round(float(height), 1)
+
+
 def write(
     record: MechanismRecord,
     folder: str | Path,
     names: Iterable[str] | None = None,
-    formats: Sequence[str] = ("png", "pdf", "json"),
+    formats: Sequence[str] = USUAL,
     progress: Progress | None = None,
     context: Context | None = None,
 ) -> list[Path]:
@@ -161,7 +168,7 @@ def write(
             if progress:
                 progress(done, len(chosen))  # may end it before what is half known is written
             for form in formats:
-                content = _json(record, shared, entry, made) if form == "json" else encoded(made.figure, form)
+                content = _content(shared, entry, made, form)
                 paths.append(write_whole(Path(folder) / f"{entry.name}.{form}", content))
             if progress:
                 progress(done + 1, len(chosen))
@@ -206,10 +213,19 @@ def _chosen(record: MechanismRecord, context: Context, asked: Iterable[str] | No
     return _present(context) if asked is None else [_entry(record, name, context) for name in asked]
 
 
-def _json(record: MechanismRecord, context: Context, entry: FigureKind, made: Drawing) -> str:
+def _content(context: Context, entry: FigureKind, made: Drawing, form: str) -> str | bytes:
+    """A file of a figure: its numbers, LaTeX that includes it, or a picture."""
+    if form == "json":
+        return _json(context, entry, made)
+    if form == "tex":
+        return snippet(context.record.name, _spec(context, entry), made.figure)
+    return encoded(made.figure, form)
+
+
+def _json(context: Context, entry: FigureKind, made: Drawing) -> str:
     spec = _spec(context, entry)
     head = {
-        "mechanism": record.name,
+        "mechanism": context.record.name,
         "figure": spec.number or None,
         "name": spec.name,
         "title": spec.title,

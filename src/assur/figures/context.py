@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from assur import derived_topology
 from assur.errors import UsageError
 from assur.figures.near import near_solid
+from assur.figures.style import PAGE
 from assur.kinematics.answers.at_border import inputs_from_border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
@@ -62,11 +63,13 @@ class Context:
         record: the mechanism.
         given_workspace: one that is there already; else it is computed when a figure needs it.
         resolution: cells along each coordinate of a workspace that is computed; None for the usual number.
+        page: the width in mm that no figure should exceed, with panels below one another where it is narrow.
     """
 
     record: MechanismRecord
     given_workspace: Workspace | None = None
     resolution: int | None = None
+    page: float = PAGE
     _kept: dict[Hashable, Any] = field(default_factory=dict, repr=False)
 
     def kept(self, name: Hashable, make: Callable[[], Made]) -> Made:

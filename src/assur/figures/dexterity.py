@@ -8,27 +8,27 @@ from functools import partial
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
-from matplotlib.ticker import MaxNLocator
+from matplotlib.colors import LogNorm
 
 from assur.figures.context import Context
-from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes, row
+from assur.figures.contours import round_levels
+from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes, row, scale_of
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import TEXT
 from assur.kinematics.rates.units import factor_unit, is_mixed
 from assur.performance.indices import INDICES
+from assur.results.typeset_text import minus
 
 NODES = 160
 
 
 @dataclass(frozen=True)
 class Measure:
-    """What is mapped: its key in the data, its name among the indices, and where its colours end."""
+    """What is mapped: its key in the data, and its name among the indices."""
 
     key: str
     name: str
-    quantile: float
 
     @property
     def symbol(self) -> str:
@@ -36,9 +36,9 @@ class Measure:
         return INDICES[self.name].symbol
 
 
-INDEX = Measure("index", "condition", 1.0)
-FASTEST = Measure("largest", "largest", SHOWN)
-SLOWEST = Measure("smallest", "smallest", 1.0)
+INDEX = Measure("index", "condition")
+FASTEST = Measure("largest", "largest")
+SLOWEST = Measure("smallest", "smallest")
 
 
 def _missing(context: Context) -> str:
@@ -82,26 +82,23 @@ def _draw(context: Context, measure: Measure) -> Drawing:
     titles = [plane.words for plane in mapped]
     figure, axes, bar = row(mapped, titles, gap=18.0, bottom=17.0, right=22.0, tallest=90.0)
     maps = [context.indices_at(plane.points)[measure.name] for plane in mapped]
-    known = [values[np.isfinite(values)] for values in maps]
-    top = max((float(np.quantile(values, measure.quantile)) for values in known if len(values)), default=0.0) or 1.0
-    colours, data = Normalize(0.0, top), []
+    known = np.concatenate([values[np.isfinite(values)] for values in maps])
+    colours, data = scale_of(known, unbounded=INDICES[measure.name].unbounded), []
+    levels = round_levels(colours)
     for place, plane, values in zip(axes, mapped, maps, strict=True):
-        coloured(place, plane, values, colours, levels=_levels(top))
+        coloured(place, plane, values, colours, levels=levels)
         nodes = dict(zip(plane.names, (plane.xs, plane.ys), strict=True))
         data.append({"plane": plane.names, "held": plane.held, **nodes, measure.key: values})
-    colorbar = figure.colorbar(ScalarMappable(colours, COLOURS), cax=bar, extend=beyond(top, *known))
+    extend = beyond(float(colours.vmax or np.inf), known)
+    colorbar = figure.colorbar(ScalarMappable(colours, COLOURS), cax=bar, extend=extend)
     unit = "" if measure is INDEX else factor_unit(context.record, None)
     colorbar.set_label(f"${measure.symbol}$" + (f" ({unit})" if unit else ""), fontsize=TEXT)
-    colorbar.set_ticks([0.0, *_levels(top)])
-    for level in _levels(top):
+    ends = [] if isinstance(colours, LogNorm) else [0.0]
+    colorbar.set_ticks([*ends, *levels], labels=[minus(f"{level:g}") for level in (*ends, *levels)])
+    colorbar.minorticks_off()
+    for level in levels:
         colorbar.ax.axhline(level, color="white", linewidth=0.6)
     return Drawing(figure, {"unit": context.record.unit, "mode": context.workspace.mode, "maps": data})
-
-
-def _levels(top: float) -> list[float]:
-    """Round levels between 0 and the largest value, at most ten of them."""
-    ticks = MaxNLocator(10, steps=[1, 2, 5, 10]).tick_values(0.0, top)
-    return [float(level) for level in ticks if 0.0 < level < top]
 
 
 DEXTERITY = FigureKind("dexterity", "Local condition index", _missing, _caption, partial(_draw, measure=INDEX))
@@ -112,7 +109,8 @@ LARGEST = FigureKind(
     _factor_caption(
         FASTEST,
         "Largest",
-        f" It grows without bound towards a parallel singularity; colours end at its {100 * SHOWN:.0f} % quantile.",
+        " It grows without bound towards a parallel singularity; colours, by decades, end at its"
+        f" {100 * SHOWN:.0f} % quantile.",
     ),
     partial(_draw, measure=FASTEST),
 )

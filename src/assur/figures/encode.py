@@ -16,7 +16,9 @@ _METADATA: Mapping[str, dict[str, Any]] = {
     "pdf": {"Creator": "assur", "Producer": None, "CreationDate": None},
     "svg": {"Creator": "assur", "Date": None},
 }
-FORMATS = ("png", "pdf", "svg", "json")
+FORMATS = ("png", "pdf", "svg", "tex", "json")
+USUAL = ("png", "pdf", "tex", "json")
+"""Those of which files are written unless others are asked for."""
 
 
 def encoded(figure: Figure, form: str, dots: int = DOTS_PER_INCH) -> bytes:

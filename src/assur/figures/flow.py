@@ -26,8 +26,9 @@ Kind = Literal["input", "quantity", "condition", "pose"]
 FILL = {"input": "#fbe6bf", "quantity": "#ffffff", "condition": "#f2f2f2", "pose": "#d6ebf7"}
 HALF = 11.0
 ROW = 44.0
-GAP = 13.0
-"""Half height of a box, distance of rows, gap between boxes, in points."""
+GAPS = (13.0, 9.0, 6.0, 4.0)
+"""Half height of a box, distance of rows, and gaps between boxes, of which the first is taken
+for which the page has room; in points."""
 
 
 @dataclass(frozen=True)
@@ -120,9 +121,12 @@ def _draw(context: Context) -> Drawing:
     needs = {name: box.needs for name, box in found.items()}
     first = [box.name for box in found.values() if box.kind == "input"]
     row = rows(needs, first, list(context.record.platform.pose))
-    plan = layout(needs, row, sizes, GAP)
-    low = min(plan.centre[name] - sizes.get(name, 0.0) / 2 for name in plan.centre) - 8
-    high = max(plan.centre[name] + sizes.get(name, 0.0) / 2 for name in plan.centre) + 8
+    for gap in GAPS:
+        plan = layout(needs, row, sizes, gap)
+        low = min(plan.centre[name] - sizes.get(name, 0.0) / 2 for name in plan.centre) - 8
+        high = max(plan.centre[name] + sizes.get(name, 0.0) / 2 for name in plan.centre) + 8
+        if high - low <= context.page * POINTS:
+            break
     depth = ROW * max(row.values()) + 2 * HALF + 16
     page = canvas((high - low) / POINTS, depth / POINTS)
     place = _places(plan, row, low, depth)

@@ -57,7 +57,8 @@ def _draw(context: Context) -> Drawing:
     if flat:
         ball[:, 2] = 0.0
     cloud = np.concatenate([corners, ball])
-    view, page = fitted(plane("x", "y") if flat else orthographic(35, 22), cloud, 100, 85, margin=17)
+    camera = plane("x", "y") if flat else orthographic(35, 22)
+    view, page = fitted(camera, cloud, min(100, context.page), 85, margin=17)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
     if not flat:
         draw_box(page, view, low, high)

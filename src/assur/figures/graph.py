@@ -19,7 +19,7 @@ from assur.figures.context import Context
 from assur.figures.graph_layout import Bond, GraphLayout, plan
 from assur.figures.letters import letter
 from assur.figures.spec import Drawing, FigureKind, always
-from assur.figures.style import GREY, INK, ORANGE, PAPER, SERIES, SMALL, TEXT, new_figure
+from assur.figures.style import GREY, INK, ORANGE, PAGE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.figures.symbols import hatching
 from assur.topology.screws.linkage import Linkage
 
@@ -86,13 +86,16 @@ def edges(linkage: Linkage) -> tuple[DrawnEdge, ...]:
     return tuple(found.values())
 
 
-def graph_drawing(linkage: Linkage, loops: Sequence[Loop], assur_chains: Sequence[AssurChain]) -> Drawing:
+def graph_drawing(
+    linkage: Linkage, loops: Sequence[Loop], assur_chains: Sequence[AssurChain], width: float = PAGE
+) -> Drawing:
     """The graph of a linkage, to be called inside `assur.figures.style.styled`.
 
     Args:
         linkage: links and joints; parallelograms are drawn as one joint.
         loops: in the order that attains the coupling degree, each with the names of the edges that it adds.
         assur_chains: each with the indices of its loops; it has a colour, and each loop a tone of it.
+        width: of the page in mm; where the legend has no room beside the graph, it stands below it.
     """
     found = edges(linkage)
     measure = _Measure()
@@ -105,12 +108,13 @@ def graph_drawing(linkage: Linkage, loops: Sequence[Loop], assur_chains: Sequenc
     places = plan(bonds, linkage.base, linkage.platform, widths)
     tones = _tones(loops, assur_chains)
     legend = _legend(found, loops, assur_chains, tones)
-    page = _page(places, bonds, max((measure(text, SMALL) for text, _ in legend), default=0.0), len(legend))
+    wide = 30.0 + max((measure(text, SMALL) for text, _ in legend), default=0.0)
+    page, corner = _page(places, bonds, wide, LINE * len(legend), width * POINTS)
     for item in found:
         _edge(page, item, places, tones)
     for link in links:
         _link(page, places.links[link], letter(link), ground=link == linkage.base, top=link == linkage.platform)
-    _write(page, places, bonds, legend)
+    _write(page, corner, legend)
     return Drawing(page.figure, _data(linkage, found, places, loops, assur_chains))
 
 
@@ -174,28 +178,32 @@ def _legend(
     return lines
 
 
-def _page(places: GraphLayout, bonds: Sequence[Bond], width: float, lines: int) -> Canvas:
-    """A page about the graph and the legend on its right; its axes count in the plan's points."""
+def _page(
+    places: GraphLayout, bonds: Sequence[Bond], wide: float, tall: float, most: float
+) -> tuple[Canvas, tuple[float, float]]:
+    """A page about the graph and a legend of wide x tall points, and where that begins; the axes count as the plan.
+
+    It stands on the right of the graph where both together are at most `most` wide, else below it.
+    """
     rooms = {bond.name: bond.room for bond in bonds}
     left = min(*(bar[0] for bar in places.links.values()), *(at[0] - rooms[n][0] for n, at in places.joints.items()))
-    right = _right(places, bonds)
-    top = max(bar[2] for bar in places.links.values()) + HALF
-    low = min(-HALF - 6.0, top - LINE * lines)
-    page = canvas((right - left + 30.0 + width + 2 * MARGIN) / POINTS, (top - low + 2 * MARGIN) / POINTS)
-    page.axes.set_xlim(left - MARGIN, right + 30.0 + width + MARGIN)
-    page.axes.set_ylim(low - MARGIN, top + MARGIN)
-    return page
-
-
-def _right(places: GraphLayout, bonds: Sequence[Bond]) -> float:
-    """Where the graph ends and the legend may begin."""
     letters = [float(places.joints[bond.name][0]) + bond.room[1] for bond in bonds]
-    return max(*letters, *(bar[1] for bar in places.links.values()))
+    right = max(*letters, *(bar[1] for bar in places.links.values()))
+    top, low = max(bar[2] for bar in places.links.values()) + HALF, -HALF - 6.0
+    if right - left + wide + 2 * MARGIN <= most:
+        corner = right + 12.0, top
+        right, low = right + wide, min(low, top - tall)
+    else:
+        corner = left, low - LINE / 2
+        right, low = max(right, left + wide), low - LINE / 2 - tall
+    page = canvas((right - left + 2 * MARGIN) / POINTS, (top - low + 2 * MARGIN) / POINTS)
+    page.axes.set_xlim(left - MARGIN, right + MARGIN)
+    page.axes.set_ylim(low - MARGIN, top + MARGIN)
+    return page, corner
 
 
-def _write(page: Canvas, places: GraphLayout, bonds: Sequence[Bond], legend: Legend) -> None:
-    x = _right(places, bonds) + 12.0
-    y = max(bar[2] for bar in places.links.values()) + HALF - LINE / 2
+def _write(page: Canvas, corner: tuple[float, float], legend: Legend) -> None:
+    x, y = corner[0], corner[1] - LINE / 2
     for text, colour in legend:
         if colour == ORANGE:
             page.disc(np.array([x + 6.0, y]), 3.6, ORANGE)
@@ -281,7 +289,7 @@ def _caption(context: Context) -> str:
 
 def _draw(context: Context) -> Drawing:
     found = context.topology
-    return graph_drawing(found.linkage, found.loops, found.assur_chains)
+    return graph_drawing(found.linkage, found.loops, found.assur_chains, context.page)
 
 
 GRAPH = FigureKind("graph", "Links and joints", always, _caption, _draw)

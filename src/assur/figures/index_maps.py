@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.figures.context import Context
-from assur.figures.plane_map import SHOWN, MappedPlane, beyond, coloured, panels, plane_of_lengths, with_bar
+from assur.figures.plane_map import SHOWN, MappedPlane, beyond, coloured, panels, plane_of_lengths, scale_of, with_bar
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.written import units
@@ -43,21 +43,14 @@ def drawn(context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = 
     titles = [f"${item.symbol}$" + (f" ({units(item.unit)})" if item.unit else "") for item in maps.maps.values()]
     figure, pairs = panels(plane, titles, right=13.0)
     for pair, (name, item) in zip(pairs, maps.maps.items(), strict=True):
-        top = (tops or {}).get(name, _top(name, item.values[np.isfinite(item.values)]))
-        values = np.where(np.isinf(item.values), np.nan if top is None else top, item.values).T
-        image = coloured(pair[0], plane, values, Normalize(0.0, top or 1.0))
-        with_bar(pair, image, "none found", beyond(top or np.inf, item.values))
+        top, index = (tops or {}).get(name), INDICES.get(name)
+        known = item.values[np.isfinite(item.values)]
+        unbounded = index is not None and index.unbounded
+        colours = Normalize(0.0, top or 1.0) if top is not None else scale_of(known, unbounded=unbounded)
+        values = np.where(np.isinf(item.values), float(colours.vmax or np.nan) if len(known) else np.nan, item.values)
+        image = coloured(pair[0], plane, values.T, colours)
+        with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), item.values))
     return Drawing(figure, plain(maps.answer()))
-
-
-def _top(name: str, known: FloatArray) -> float | None:
-    """Where the colours end; None where no value is known."""
-    if not len(known):
-        return None
-    index = INDICES.get(name)
-    if index is not None and index.power == 0:
-        return 1.0
-    return float(np.quantile(known, SHOWN if index is not None and index.unbounded else 1.0)) or 1.0
 
 
 def _listed(symbols: Iterable[str]) -> str:
@@ -75,8 +68,8 @@ def _caption(context: Context) -> str:
     parts = [
         f"Every index over one plane ({mode_words(context)})."
         f" {_listed(item.symbol for item in INDICES.values() if item.power == 0)} lie between 0, singular, and 1;"
-        f" the colours of {_listed(item.symbol for item in INDICES.values() if item.unbounded)} end at their"
-        f" {100 * SHOWN:.0f} % quantile."
+        f" the colours of {_listed(item.symbol for item in INDICES.values() if item.unbounded)}, by decades, end"
+        f" at their {100 * SHOWN:.0f} % quantile."
     ]
     if found.length is not None:
         parts.append(

@@ -1,4 +1,4 @@
-"""Indices: maps of transmission, condition and manipulability in the middle plane of the workspace, all from 0 to 1.
+"""Indices: maps of transmission, condition and manipulability in the middle plane of the workspace.
 
 In the transmission maps the thick line is where an index is 0.7: inside it in the last map is the good-transmission
 workspace (Wang, Wu and Liu 2010).
@@ -10,12 +10,21 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
-from assur.figures.plane_map import COLOURS, SHOWN, MappedPlane, beyond, coloured, headed, plane_of_lengths, row
+from assur.figures.contours import round_levels
+from assur.figures.plane_map import (
+    SHOWN,
+    MappedPlane,
+    beyond,
+    coloured,
+    panels,
+    plane_of_lengths,
+    scale_of,
+    with_bar,
+)
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import ORANGE
@@ -25,7 +34,6 @@ from assur.performance.transmission import GOOD
 
 FloatArray = NDArray[np.float64]
 NODES = 48
-LEVELS = [round(0.1 * k, 1) for k in range(1, 10)]
 TRANSMISSION_MAPS = ("input_transmission", "output_transmission", "transmission")
 JACOBIAN_MAPS = ("condition", "frobenius", "manipulability")
 
@@ -36,15 +44,6 @@ class IndexField:
 
     plane: MappedPlane
     indices: Indices
-
-    def shares(self, name: str) -> tuple[FloatArray, float]:
-        """An index between 0 and 1, and what it was divided by: 1, or the quantile where a velocity's colours end."""
-        values = self.indices[name]
-        known = values[np.isfinite(values)]
-        if INDICES[name].power == 0 or not len(known):
-            return values, 1.0
-        top = float(np.quantile(known, SHOWN)) or 1.0
-        return values / top, top
 
 
 def field(context: Context) -> IndexField:
@@ -68,35 +67,31 @@ def _transmission_caption(context: Context) -> str:
 
 
 def _jacobian_caption(context: Context) -> str:
-    there = field(context)
-    top, unit = there.shares("manipulability")[1], INDICES["manipulability"].unit(there.indices)
-    size = f"{top:.4g} {units(unit)}".strip()
+    length = field(context).indices.length
     words = (
         f"Indices of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): $1/\\kappa(J)$ in the 2-norm and in the Frobenius"
-        f" norm, 0 singular and 1 isotropic, and the manipulability $\\mu = \\sqrt{{\\det JJ^T}}$ divided by {size},"
-        f" its {100 * SHOWN:.0f} % quantile."
+        f" norm, 0 singular and 1 isotropic, and the manipulability $\\mu = \\sqrt{{\\det JJ^T}}$, its colours by"
+        f" decades up to its {100 * SHOWN:.0f} % quantile."
     )
-    if there.indices.length is None:
+    if length is None:
         return words
-    return f"{words} Lengths are divided by the characteristic length {there.indices.length:.4g} {context.record.unit}."
+    return f"{words} Lengths are divided by the characteristic length {length:.4g} {context.record.unit}."
 
 
 def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
     there = field(context)
-    plane, titles = there.plane, [f"${INDICES[name].symbol}$" for name in names]
-    figure, maps, bar = row([plane] * len(names), titles, gap=6.0, bottom=14.0, right=20.0, tallest=75.0)
-    data = {}
-    for name, axes in zip(names, maps, strict=True):
-        values, divisor = there.shares(name)
-        coloured(axes, plane, values, Normalize(0.0, 1.0), levels=LEVELS, marked={GOOD: ORANGE} if good else None)
-        if axes is not maps[0]:
-            axes.set_ylabel("")
-            axes.tick_params(labelleft=False)
-        data[name] = {"values": there.indices[name], "divided_by": divisor}
-    headed(figure, plane)
-    end = beyond(1.0, *(there.shares(name)[0] for name in names))
-    scale_bar = figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar, extend=end)
-    scale_bar.set_ticks([0.0, *LEVELS[1::2], 1.0])
+    plane, data = there.plane, {}
+    units_of = {name: INDICES[name].unit(there.indices) for name in names}
+    titles = [f"${INDICES[name].symbol}$" + (f" ({units(unit)})" if unit else "") for name, unit in units_of.items()]
+    figure, pairs = panels(plane, titles, right=15.0)
+    for name, pair in zip(names, pairs, strict=True):
+        index, values = INDICES[name], there.indices[name]
+        known = values[np.isfinite(values)]
+        colours = Normalize(0.0, 1.0) if good else scale_of(known, unbounded=index.unbounded)
+        marked = {GOOD: ORANGE} if good else None
+        image = coloured(pair[0], plane, values, colours, levels=round_levels(colours), marked=marked)
+        with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), known))
+        data[name] = {"values": values}
     return Drawing(
         figure,
         {

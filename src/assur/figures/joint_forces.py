@@ -90,7 +90,7 @@ def _draw(context: Context) -> Drawing:
     starts = [_place(skeleton, item.joint) for item in passed.joints]
     ends = [start + per_newton * item.force for start, item in zip(starts, passed.joints, strict=True)]
     cloud = np.concatenate([cloud_of(skeleton, context.companion), np.array(ends).reshape(-1, 3)])
-    view, page = fitted(camera, cloud, 150, 105, margin=9)
+    view, page = fitted(camera, cloud, min(150, context.page), 105, margin=9)
     letters = Letters(page)
     draw_ground(page, view, skeleton, context.companion, letters)
     links = {link for mark in skeleton.marks for link in (mark.joint.parent, mark.joint.child)}

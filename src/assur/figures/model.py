@@ -42,7 +42,9 @@ def _draw(context: Context) -> Drawing:
     moving = skeleton.frames[platform.link]
     origin = moving[0] @ platform.point + moving[1]
     frames = np.concatenate([np.zeros((1, 3)), origin + size * moving[0].T])
-    view, page = fitted(camera, np.concatenate([cloud_of(skeleton, companion), frames]), 150, 105, margin=11)
+    view, page = fitted(
+        camera, np.concatenate([cloud_of(skeleton, companion), frames]), min(150, context.page), 105, margin=11
+    )
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     ends = [point for rail in rails(skeleton, companion) for point in rail]

@@ -14,25 +14,27 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from assur.figures.context import Context
+from assur.figures.contours import continued, draw_contours, round_levels
 from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
+from assur.figures.page import HIGHEST, side_by_side
 from assur.figures.plots import outline
-from assur.figures.style import GREY, INK, MILLIMETRE, PAGE, SMALL, TEXT, new_figure
+from assur.figures.style import GREY, INK, MILLIMETRE, SMALL, TEXT, new_figure
 from assur.model.pose import LENGTHS, is_angle
 
 FloatArray = NDArray[np.float64]
 COLOURS = "cividis"
-PLAIN = 10.0
-"""A bar of colours by decades has plain numbers where its ends differ by less than this factor."""
-SHOWN = 0.75
-"""Colours end at this quantile of what grows without bound towards a singularity."""
+SHOWN = 0.95
+"""Colours, by decades, end at this quantile of what grows without bound towards a singularity."""
 
-ACROSS, TALLEST, LEFT = 3, 50.0, 14.0
-"""Maps in a row of panels, the height of one in mm at most, and the room to the left of the first."""
+DECADES = 1e4
+"""By this factor the ends of a bar of colours by decades differ at most."""
+
+ACROSS, LEAST, TALLEST, LEFT = 3, 44.0, 50.0, 14.0
+"""Maps in a row of panels, the share of the page's width that one needs there, the height of one at most, and the room
+to the left of the first; in mm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +130,7 @@ def coloured(
     levels: Sequence[float] = (),
     marked: Mapping[float, str] | None = None,
 ) -> QuadMesh | None:
-    """A map of values (b, a): colours, white lines at levels, and lines of their own colours at marked ones.
+    """A map of values (b, a): colours, white lines at levels, and lines of their own colours at marked ones, numbered.
 
     All ends at the border of the workspace, which is drawn. None, and no colours, where nothing is known.
     """
@@ -146,12 +148,8 @@ def coloured(
     image.set_clip_path(border)
     image.set_rasterized(True)
     low, high = float(np.min(values[known])), float(np.max(values[known]))
-    if levels and high - low >= 1e-6 * max(abs(low), abs(high)):
-        axes.contour(plane.xs, plane.ys, shown, levels=levels, colors="white", linewidths=0.5).set_clip_path(border)
-    for level, colour in (marked or {}).items():
-        if low < level < high:
-            line = axes.contour(plane.xs, plane.ys, shown, levels=[level], colors=colour, linewidths=1.4)
-            line.set_clip_path(border)
+    if high - low >= 1e-6 * max(abs(low), abs(high)):
+        draw_contours(axes, (plane.xs, plane.ys), shown, levels, path, marked or {})
     return image
 
 
@@ -159,17 +157,22 @@ def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Fig
     """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide."""
     wide, tall = plane.spans
     left, bottom, top = LEFT, 13.0, 7.0
-    scale = min((PAGE / ACROSS - left - right) / wide, TALLEST / tall)
-    cell, row = PAGE / ACROSS, bottom + top + scale * tall
-    height = math.ceil(len(titles) / ACROSS) * row + 5.0
-    figure = new_figure(PAGE, height)
+    page = plane.context.page
+    columns = side_by_side(page, ACROSS, LEAST)
+    cell = page / columns
+    rows = math.ceil(len(titles) / columns)
+    tallest = min(TALLEST, (HIGHEST - 5.0) / rows - bottom - top)
+    scale = min((cell - left - right) / wide, tallest / tall)
+    row = bottom + top + scale * tall
+    height = rows * row + 5.0
+    figure = new_figure(page, height)
     headed(figure, plane)
     pairs = []
     for k, title in enumerate(titles):
-        x, y = (k % ACROSS) * cell + left, height - 5.0 - (k // ACROSS) * row - top - scale * tall
-        axes = figure.add_axes((x / PAGE, y / height, scale * wide / PAGE, scale * tall / height))
-        bar = figure.add_axes(((x + scale * wide + 2.0) / PAGE, y / height, 2.5 / PAGE, scale * tall / height))
-        middle, above = (x + scale * wide / 2) / PAGE, (y + scale * tall + 1.5) / height
+        x, y = (k % columns) * cell + left, height - 5.0 - (k // columns) * row - top - scale * tall
+        axes = figure.add_axes((x / page, y / height, scale * wide / page, scale * tall / height))
+        bar = figure.add_axes(((x + scale * wide + 2.0) / page, y / height, 2.5 / page, scale * tall / height))
+        middle, above = (x + scale * wide / 2) / page, (y + scale * tall + 1.5) / height
         figure.text(middle, above, f"({chr(97 + k)}) {title}", ha="center", fontsize=TEXT)
         pairs.append((axes, bar))
     return figure, pairs
@@ -178,23 +181,36 @@ def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Fig
 def row(
     planes: Sequence[MappedPlane], titles: Sequence[str], *, gap: float, bottom: float, right: float, tallest: float
 ) -> tuple[Figure, list[Axes], Axes]:
-    """A figure with maps of planes side by side, true to one scale, their titles below, and one bar of colours.
+    """A figure with maps of planes, true to one scale, their titles below, and one bar of colours for all of them.
 
-    Lengths are in mm: between two maps, below them, to the right for the bar, and the height of a map at most.
+    They stand side by side, or on a narrow page below one another. Lengths are in mm: between two maps, below them, to
+    the right for the bar, and the height of a map at most.
     """
-    left, top, spans = LEFT, 5.0, [plane.spans for plane in planes]
-    between = gap * (len(planes) - 1)
-    across, upward = sum(wide for wide, _ in spans), max(tall for _, tall in spans)
-    scale = min(tallest / upward, (PAGE - left - right - between) / across)
-    width, height = left + right + between + scale * across, bottom + top + scale * upward
-    figure, maps, start = new_figure(width, height), [], left
-    for k, ((wide, tall), title) in enumerate(zip(spans, titles, strict=True)):
-        maps.append(figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height)))
-        middle = (start + scale * wide / 2) / width
-        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {title}", ha="center", fontsize=TEXT)
-        start += scale * wide + gap
-    bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * upward / height))
-    return figure, maps, bar
+    page, top = planes[0].context.page, 5.0
+    beside = side_by_side(page, len(planes), LEAST) == len(planes)
+    lines = [list(planes)] if beside else [[plane] for plane in planes]
+    tallest = min(tallest, (HIGHEST - top) / len(lines) - bottom)
+    scale, across = tallest / max(plane.spans[1] for plane in planes), 0.0
+    for line in lines:
+        wide = sum(plane.spans[0] for plane in line)
+        scale = min(scale, (page - LEFT - right - gap * (len(line) - 1)) / wide)
+        across = max(across, wide)
+    drawn = scale * across + gap * (len(planes) - 1) * beside
+    heights = [bottom + scale * max(plane.spans[1] for plane in line) for line in lines]
+    width, height = LEFT + right + drawn, sum(heights) + top
+    figure = new_figure(width, height)
+    maps: list[Axes] = []
+    for k, line in enumerate(lines):
+        start, low = LEFT, sum(heights[k + 1 :])
+        for plane in line:
+            wide, tall = (scale * span for span in plane.spans)
+            place = (start / width, (low + bottom) / height, wide / width, tall / height)
+            title = f"({chr(97 + len(maps))}) {titles[len(maps)]}"
+            maps.append(figure.add_axes(place))
+            figure.text((start + wide / 2) / width, (low + 1.5) / height, title, ha="center", fontsize=TEXT)
+            start += wide + gap
+    place = ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - top - bottom) / height)
+    return figure, maps, figure.add_axes(place)
 
 
 def headed(figure: Figure, plane: MappedPlane) -> None:
@@ -213,12 +229,41 @@ def with_bar(
         axes.text(0.5, 0.5, otherwise, transform=axes.transAxes, ha="center", va="center", fontsize=SMALL)
         return
     colours = image.figure.colorbar(image, cax=bar, extend=extend)
-    low, high = image.get_clim()
-    if isinstance(image.norm, LogNorm) and high < PLAIN * low:
-        ticks = [tick for tick in MaxNLocator(6).tick_values(low, high) if low <= tick <= high]
+    if isinstance(image.norm, LogNorm):
+        height = image.figure.bbox.height * bar.get_position().height
+        ticks = apart(round_levels(image.norm, 6), image.norm, height / (1.3 * SMALL))
         colours.set_ticks(ticks, labels=[f"{tick:.4g}" for tick in ticks])
         colours.minorticks_off()
     bar.tick_params(labelsize=SMALL)
+
+
+def apart(ticks: Sequence[float], colours: Normalize, lines: float) -> list[float]:
+    """Of ticks on a scale as many as there are lines of text beside it for them, from below.
+
+    >>> apart([1.0, 2.0, 5.0, 10.0], LogNorm(1.0, 10.0), 2.5)
+    [1.0, 5.0]
+    """
+    kept: list[float] = []
+    for tick in ticks:
+        if not kept or lines * float(colours(tick) - colours(kept[-1])) >= 1.0:
+            kept.append(tick)
+    return kept
+
+
+def scale_of(known: FloatArray, *, unbounded: bool) -> Normalize:
+    """Colours of known values (k,): from 0 to the largest; by decades up to a quantile of what grows without bound.
+
+    >>> scale_of(np.array([1.0, 2.0]), unbounded=False).vmax, type(scale_of(np.arange(1, 9.0), unbounded=True)).__name__
+    (2.0, 'LogNorm')
+    """
+    positive = known[(known > 0) & np.isfinite(known)]
+    if not len(positive):
+        return Normalize(0.0, 1.0)
+    if not unbounded:
+        return Normalize(0.0, float(np.max(positive)))
+    low, top = float(np.min(positive)), float(np.quantile(positive, SHOWN))
+    low = max(low, top / DECADES)
+    return LogNorm(low, top) if low < top else Normalize(0.0, top)
 
 
 def beyond(top: float, *values: FloatArray) -> Literal["max", "neither"]:
@@ -228,9 +273,3 @@ def beyond(top: float, *values: FloatArray) -> Literal["max", "neither"]:
     ('max', 'neither')
     """
     return "max" if any(np.any(item > top * (1 + 1e-9)) for item in values) else "neither"
-
-
-def continued(values: FloatArray) -> FloatArray:
-    """Values with those of the nearest node where there are none, so that colours reach the border."""
-    nearest = distance_transform_edt(~np.isfinite(values), return_distances=False, return_indices=True)
-    return np.asarray(values[tuple(nearest)])

@@ -13,16 +13,20 @@ from assur.figures.context import Context
 from assur.figures.dimensions import Arc, arcs, draw_arcs, draw_frame, formula_text
 from assur.figures.labels import label
 from assur.figures.letters import letter
+from assur.figures.page import side_by_side
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, draw_bodies
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import GREY, INK, PAGE, TEXT
+from assur.figures.style import GREY, INK, TEXT
 from assur.scene.camera import AXES, Camera, plane
 from assur.scene.companion import DrawnMeasure
 from assur.scene.letters import lettered
 from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
+LEAST = 55.0
+"""Share of the page's width that a plane needs at least to stand beside another, in mm."""
+
 PLANES = {"y": ("x", "z"), "x": ("y", "z"), "z": ("x", "y")}
 """Direction of the axes -> the coordinates to the right and upwards."""
 
@@ -110,16 +114,17 @@ def _caption(context: Context) -> str:
 def _draw(context: Context) -> Drawing:
     found = parts(context)
     height, gap = 84.0, 13.0
-    page = canvas(PAGE, height)
+    rows = [found] if side_by_side(context.page, len(found), LEAST) == len(found) else [[part] for part in found]
+    page = canvas(context.page, height * len(rows))
     letters = Letters(page)
-    widths = _widths(found, PAGE - gap * (len(found) + 1))
-    left = gap
-    for k, (part, width) in enumerate(zip(found, widths, strict=True)):
-        view = inside(part.camera, _cloud(part), (left, 17.0, width, height - 24.0))
-        _panel(context, page, view, part, letters)
-        label = f"({chr(97 + k)}) {part.title}"
-        page.text(((left + width / 2) * POINTS, 3.5 * POINTS), label, fontsize=TEXT)
-        left += width + gap
+    for k, row in enumerate(rows):
+        low, left = height * (len(rows) - 1 - k), gap
+        for part, width in zip(row, _widths(row, context.page - gap * (len(row) + 1)), strict=True):
+            view = inside(part.camera, _cloud(part), (left, low + 17.0, width, height - 24.0))
+            _panel(context, page, view, part, letters)
+            label = f"({chr(97 + found.index(part))}) {part.title}"
+            page.text(((left + width / 2) * POINTS, (low + 3.5) * POINTS), label, fontsize=TEXT)
+            left += width + gap
     letters.place()
     return Drawing(page.figure, {"unit": context.record.unit, "planes": [_data(part) for part in found]})
 

@@ -27,7 +27,7 @@ from assur.workspace.slices import slice_at
 
 FloatArray = NDArray[np.float64]
 FREE = "#8fd3bd"
-CLOSE = "#f0a07a"
+CLOSE = "#e2703a"
 LOCI = (RED, BLUE, PINK, ORANGE, GREEN)
 STYLES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-.", ":")
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, plane_words
+from assur.figures.page import legend_above, side_by_side
 from assur.figures.plots import (
     CLOSE,
     FREE,
@@ -21,8 +22,11 @@ from assur.figures.plots import (
     rim,
 )
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import GREY, PAGE, TEXT, new_figure
+from assur.figures.style import GREY, TEXT, new_figure
 from assur.workspace.projections import shadow
+
+LEAST = 55.0
+"""Share of the page's width that a projection needs at least to stand beside another, in mm."""
 
 
 def _planes(context: Context) -> list[tuple[str, str]]:
@@ -43,10 +47,13 @@ def _draw(context: Context) -> Drawing:
     found = context.workspace
     planes = _planes(context)
     spans = [(drawn_span(context, a), drawn_span(context, b)) for a, b in planes]
-    left, gap, bottom, top = 14.0, 18.0, 17.0, 9.0
-    scale = min(70.0 / max(tall for _, tall in spans), (PAGE - left - gap - 4.0) / sum(wide for wide, _ in spans))
-    width = left + gap + 4.0 + scale * sum(wide for wide, _ in spans)
-    height = bottom + top + scale * max(tall for _, tall in spans)
+    left, gap, bottom, top = 14.0, 18.0, 17.0, 3.0
+    beside = side_by_side(context.page, 2, LEAST) == 2
+    room = sum(wide for wide, _ in spans) if beside else max(wide for wide, _ in spans)
+    margins = left + 4.0 + gap * beside
+    scale = min(70.0 / max(tall for _, tall in spans), (context.page - margins) / room)
+    width, row = margins + scale * room, bottom + top + scale * max(tall for _, tall in spans)
+    height = row if beside else 2 * row
     figure = new_figure(width, height)
     data: dict[str, Any] = {
         "unit": context.record.unit,
@@ -56,7 +63,8 @@ def _draw(context: Context) -> Drawing:
     }
     start = left
     for k, ((a, b), (wide, tall)) in enumerate(zip(planes, spans, strict=True)):
-        axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
+        level = 0.0 if beside else row * (1 - k)
+        axes = figure.add_axes((start / width, (level + bottom) / height, scale * wide / width, scale * tall / height))
         outline = found.projection(a, b)
         across = next(i for i, name in enumerate(found.box.names) if name not in (a, b))
         close = shadow(context.near, across)
@@ -68,8 +76,8 @@ def _draw(context: Context) -> Drawing:
             curves(axes, rim(locus)[:, :, keep], j)
         dress(context, axes, context.workspace.box, (a, b))
         middle = (start + scale * wide / 2) / width
-        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {plane_words(a, b)}", ha="center", fontsize=TEXT)
-        start += scale * wide + gap
+        figure.text(middle, (level + 1.5) / height, f"({chr(97 + k)}) {plane_words(a, b)}", ha="center", fontsize=TEXT)
+        start += (scale * wide + gap) * beside
         data["projections"].append(
             {
                 "plane": [a, b],
@@ -79,7 +87,7 @@ def _draw(context: Context) -> Drawing:
                 "near": close[1],
             }
         )
-    figure.legend(handles=legend_of(context), loc="upper center", ncols=4)
+    legend_above(figure, legend_of(context))
     return Drawing(figure, data)
 
 

@@ -13,6 +13,7 @@ from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import axis_title, drawn_span, dress, shown, stretch
 from assur.figures.lines import before, facing_of, mesh_edges
+from assur.figures.page import HIGHEST, legend_above, side_by_side
 from assur.figures.plots import (
     CLOSE,
     FREE,
@@ -32,7 +33,7 @@ from assur.figures.raster import filled, lit
 from assur.figures.singular import condition
 from assur.figures.solid import strokes
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, new_figure
+from assur.figures.style import DOTS_PER_INCH, GREY, SMALL, TEXT, new_figure
 from assur.figures.written import times_ten, units
 from assur.model.pose import is_angle
 from assur.scene.camera import orthographic
@@ -42,6 +43,9 @@ from assur.workspace.region import Workspace
 from assur.workspace.solids import mesh as mesh_of
 
 FloatArray = NDArray[np.float64]
+SIDE, LEAST = 14.0, 65.0
+"""White beside a panel, and the share of the page's width that one needs to stand beside another, in mm."""
+
 FLATTER = 2e-4
 """Faces are joined where that moves the surface by less than this share of the box; for the picture only."""
 
@@ -91,16 +95,16 @@ def _plane(context: Context) -> Any:
     """A plane region as an area."""
     found = context.workspace
     across, upward = (drawn_span(context, name) for name in found.box.names)
-    width = 110.0
-    height = 18.0 + (width - 20.0) * upward / across
+    width = min(110.0, context.page)
+    height = 14.0 + (width - 20.0) * upward / across
     figure = new_figure(width, height)
-    axes = figure.add_axes((16.0 / width, 11.0 / height, (width - 20.0) / width, (height - 18.0) / height))
+    axes = figure.add_axes((16.0 / width, 11.0 / height, (width - 20.0) / width, (height - 14.0) / height))
     fill(axes, found.projection(*found.box.names).polygons, FREE, GREY)
     fill(axes, shadow(context.near, 2)[1], CLOSE)
     for k, locus in enumerate(present(found)):
         curves(axes, locus.vertices[locus.faces], k)
     dress(context, axes, found.box, found.box.names)
-    figure.legend(handles=legend_of(context), loc="upper center", ncols=2)
+    legend_above(figure, legend_of(context))
     return figure
 
 
@@ -114,12 +118,17 @@ def _space(context: Context) -> Any:
     camera = context.companion.camera("workspace", orthographic(-60, 24))
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     span = np.ptp(camera.project(corners), axis=0)
-    panel = (PAGE - 3 * 14.0) / 2
-    height = panel * float(span[1] / span[0])
+    columns = side_by_side(context.page, 2, LEAST)
     panels = 2 if present(found) else 1
-    width = 14.0 + panels * (panel + 14.0)
-    page = canvas(width, height + 26.0)
-    views = [inside(camera, corners, (14.0 + k * (panel + 14.0), 15.0, panel, height)) for k in range(panels)]
+    beside = min(columns, panels)
+    rows = panels // beside
+    aspect = float(span[1] / span[0])
+    panel = min((context.page - (columns + 1) * SIDE) / columns, (HIGHEST / rows - 26.0) / aspect)
+    height = panel * aspect
+    row = height + 26.0
+    page = canvas(SIDE + beside * (panel + SIDE), rows * row)
+    corner = [(SIDE + (k % beside) * (panel + SIDE), (rows - 1 - k // beside) * row) for k in range(panels)]
+    views = [inside(camera, corners, (left, low + 15.0, panel, height)) for left, low in corner]
     for view in views:
         draw_box(page, view, low, high)
         draw_axes(page, view, low, high, titles, per)
@@ -135,7 +144,7 @@ def _space(context: Context) -> Any:
     if surfaces:
         edges = np.concatenate([creases(drawn * found.vertices, found.faces), _contour(found, drawn, views[1])])
         _paste(page, views[1], joined(surfaces), solid=False, edges=edges)
-    _captions(context, page, panel, width)
+    _captions(context, page, [(left + panel / 2, low, low + row) for left, low in corner])
     return page.figure
 
 
@@ -158,7 +167,8 @@ def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool, edges: FloatArr
     page.axes.imshow(image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto")
 
 
-def _captions(context: Context, page: Canvas, panel: float, width: float) -> None:
+def _captions(context: Context, page: Canvas, panels: list[tuple[float, float, float]]) -> None:
+    """Letters below and legends above each of the panels (middle, low, top), in mm."""
     found = context.workspace
     areas = legend_of(context, loci=False)
     lines = [
@@ -167,11 +177,11 @@ def _captions(context: Context, page: Canvas, panel: float, width: float) -> Non
     ]
     shown: list[list[Any]] = [areas, lines] if lines else [areas]
     legend = None
-    for k, handles in enumerate(shown):
-        middle = 14.0 + k * (panel + 14.0) + panel / 2
+    width, height = page.axes.get_xlim()[1] / POINTS, page.axes.get_ylim()[1] / POINTS
+    for k, (handles, (middle, low, top)) in enumerate(zip(shown, panels, strict=True)):
         if lines:
-            page.text((middle * POINTS, 3.5 * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
-        place = (middle / width, 1.0)
+            page.text((middle * POINTS, (low + 3.5) * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
+        place = (middle / width, top / height)
         if handles:
             if legend is not None:
                 page.axes.add_artist(legend)  # the axes themselves keep the last one only

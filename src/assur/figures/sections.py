@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from assur.figures.borders import border_words, kinds
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, symbol, value_words
+from assur.figures.page import HIGHEST, legend_above, side_by_side
 from assur.figures.plots import (
     CLOSE,
     FREE,
@@ -27,13 +28,15 @@ from assur.figures.plots import (
     present,
 )
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, new_figure
+from assur.figures.style import BLUE, GREY, INK, PINK, SKY, SMALL, TEXT, new_figure
 from assur.figures.written import units
 from assur.workspace.certified.region import unit
 from assur.workspace.sections import RegionSection, cut
 
 FloatArray = NDArray[np.float64]
-BORDERS = (INK, BLUE, PINK, GREEN)
+BORDERS = (INK, BLUE, PINK, SKY)
+LEAST = 40.0
+"""Share of the page's width that a section needs at least to stand beside another, in mm."""
 
 
 def _missing(context: Context) -> str:
@@ -72,32 +75,33 @@ def _draw(context: Context) -> Drawing:
     found = context.workspace
     names = found.sections[0].plane
     across, upward = (drawn_span(context, name) for name in names)
-    left, bottom, top, gap = 13.0, 21.0, 13.0, 4.5
+    left, bottom, top, gap = 13.0, 21.0, 3.0, 4.5
     count = len(found.sections)
-    columns = min(4, count)
+    columns = min(side_by_side(context.page, 4, LEAST), count)
     rows = -(-count // columns)
-    wide = (PAGE - left - 3.0 - gap * (columns - 1)) / columns
+    tallest = HIGHEST / rows - bottom - top
+    wide = min((context.page - left - 3.0 - gap * (columns - 1)) / columns, tallest * across / upward)
     tall = wide * upward / across
     height = top + rows * (tall + bottom)
-    figure = new_figure(PAGE, height)
+    figure = new_figure(context.page, height)
     used: dict[str, Line2D] = {}
     areas = _known_areas(context)
     for k, item in enumerate(found.sections):
         start = left + (k % columns) * (wide + gap)
         low = (rows - 1 - k // columns) * (tall + bottom) + bottom
-        axes = figure.add_axes((start / PAGE, low / height, wide / PAGE, tall / height))
+        axes = figure.add_axes((start / context.page, low / height, wide / context.page, tall / height))
         _panel(context, axes, item, used)
         dress(context, axes, context.workspace.box, names)
         if k % columns:
             axes.set_ylabel("")
             axes.set_yticklabels([])
-        middle = (start + wide / 2) / PAGE
+        middle = (start + wide / 2) / context.page
         title = f"({chr(97 + k)}) {symbol(item.coordinate)} = {value_words(context, item.coordinate, item.value)}"
         figure.text(middle, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
         area = f"area {_area(*areas[k])} {_unit(context)}"
         figure.text(middle, (low - 18.0) / height, area, ha="center", fontsize=SMALL)
     borders = sorted(used, key=lambda name: name == "")
-    figure.legend(handles=[*_areas(context), *(used[name] for name in borders)], loc="upper center", ncols=4)
+    legend_above(figure, [*_areas(context), *(used[name] for name in borders)])
     return Drawing(figure, _data(context))
 
 

@@ -14,9 +14,10 @@ from assur.figures.context import Context
 from assur.figures.coordinates import shown
 from assur.figures.labels import label
 from assur.figures.meaning import typeset
+from assur.figures.page import side_by_side
 from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import LETTER, PAGE, SMALL, TEXT
+from assur.figures.style import LETTER, SMALL, TEXT
 from assur.joint_graph.points import quantity
 from assur.model.closed_form import Factor
 from assur.model.formula import parse
@@ -25,7 +26,14 @@ from assur.results.typeset_text import minus
 from assur.scene.skeleton import skeleton
 from assur.singularity.examples import AGAIN_SAMPLES, SAMPLES, SingularExample
 
-COLUMNS = 3
+COLUMNS, LEAST, WIDTH = 3, 44.0, 120.0
+"""Of several, the least width of one and that of one alone, in mm."""
+
+PAIR = 55.0
+"""Mm in which two factors stand on one line."""
+
+LETTERS, NOTES = 2.1, 1.26
+"""Mm of a line for each of its letters, of text and of notes."""
 HEAD, LINE = 3.9, 3.2
 """Heights of a line of a heading, and of one below it, in mm."""
 
@@ -145,9 +153,9 @@ def _draw_one(kind: str, context: Context) -> Drawing:
     if example is None:
         raise ValueError(_missing(kind, context))
     scene = scene_of(context, [example])
-    width = 120.0
+    width = min(WIDTH, context.page)
     height = min(130.0, (width - 8.0) * scene.aspect)
-    lines = textwrap.wrap(example.factor.meaning, 56)
+    lines = textwrap.wrap(example.factor.meaning, min(56, int(width / LETTERS)))
     foot = max(19.0, 10.0 + 4.5 * len(lines))
     page = canvas(width, height + foot + 4.0)
     draw_model(page, scene, (4.0, foot, width - 8.0, height), LETTER)
@@ -162,10 +170,14 @@ def _draw_one(kind: str, context: Context) -> Drawing:
 
 def _draw_further(context: Context) -> Drawing:
     scenes = [scene_of(context, examples) for examples in _configurations(context)]
-    columns = min(COLUMNS, len(scenes))
+    room = side_by_side(context.page, COLUMNS, LEAST)
+    columns = min(room, len(scenes))
     rows = [scenes[k : k + columns] for k in range(0, len(scenes), columns)]
-    width = PAGE / COLUMNS
-    feet = [3.5 + max(HEAD * len(_heading(scene)) + LINE * len(_words(scene)) for scene in row) for row in rows]
+    width = min(context.page / room, WIDTH)
+    feet = [
+        3.5 + max(HEAD * len(_heading(scene, width)) + LINE * len(_words(scene, width)) for scene in row)
+        for row in rows
+    ]
     heights = [
         foot + 2 + (width - 4) * max(scene.aspect for scene in row) for foot, row in zip(feet, rows, strict=True)
     ]
@@ -197,16 +209,17 @@ def _apart(context: Context, one: SingularExample, other: SingularExample) -> fl
     return max(float(np.linalg.norm(at - second[name])) for name, at in first.items())
 
 
-def _heading(scene: Scene) -> list[str]:
-    """What vanishes, two factors on a line, and the status there."""
+def _heading(scene: Scene, width: float) -> list[str]:
+    """What vanishes, two factors on a line where `width` mm are enough, and the status there."""
     conditions = [condition(item.factor) for item in scene.examples]
-    lines = [", ".join(conditions[k : k + 2]) for k in range(0, len(conditions), 2)]
+    several = 2 if width >= PAIR else 1
+    lines = [", ".join(conditions[k : k + several]) for k in range(0, len(conditions), several)]
     return [*lines[:-1], f"{lines[-1]} ({_status(scene.example)})"]
 
 
-def _words(scene: Scene) -> list[str]:
-    """Every meaning, on as many lines as it needs, and the mode."""
-    lines = [line for item in scene.examples for line in textwrap.wrap(item.factor.meaning, 46)]
+def _words(scene: Scene, width: float) -> list[str]:
+    """Every meaning, on as many lines of `width` mm as it needs, and the mode."""
+    lines = [line for item in scene.examples for line in textwrap.wrap(item.factor.meaning, int(width / NOTES))]
     notes = [f"mode {minus(scene.example.mode)}"] if scene.example.mode else []
     notes += [] if scene.example.in_box else ["outside the box"]
     return [*(typeset(line, scene.body) for line in lines), *([", ".join(notes)] if notes else [])]
@@ -221,11 +234,11 @@ def _small(page: Canvas, scene: Scene, label: str, cell: tuple[float, float, flo
     left, bottom, width, height = cell
     draw_model(page, scene, (left + 2, bottom + foot, width - 4, height - foot - 2), TEXT)
     at = np.array([left + width / 2, bottom + foot - 3.5])
-    first, *rest = _heading(scene)
+    first, *rest = _heading(scene, width)
     for line in (f"{label} {first}", *rest):
         page.text(at * POINTS, line, fontsize=TEXT)
         at = at - [0, HEAD]
-    for line in _words(scene):
+    for line in _words(scene, width):
         page.text(at * POINTS, line, fontsize=SMALL)
         at = at - [0, LINE]
 

@@ -18,8 +18,8 @@ from assur.scene.rails import rails
 from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
-BROWN = "#8c564b"
-CHAINS = (BLUE, GREEN, RED, PINK, SKY, BROWN)
+BROWN = "#6e4038"
+CHAINS = (BLUE, GREEN, RED, SKY, PINK, BROWN)
 DOWN = np.array([0.0, 0.0, -1.0])
 
 

@@ -73,7 +73,7 @@ def _hangs(skeleton: Skeleton) -> bool:
 def _draw(context: Context) -> Drawing:
     camera = model_camera(context)
     mesh = model(context.skeleton, context.companion)
-    view, page = fitted(camera, mesh.corners.reshape(-1, 3), 120, 120, margin=7)
+    view, page = fitted(camera, mesh.corners.reshape(-1, 3), min(120, context.page), 120, margin=7)
     drawn = paste(page, mesh, view)
     letters = Letters(page)
     for line in np.concatenate([drawn.lines.outlines, drawn.lines.creases]):

@@ -15,10 +15,11 @@ from assur.figures.coordinates import unit_after
 from assur.figures.labels import label
 from assur.figures.letters import letter, mathematics
 from assur.figures.mode_letters import add_signs, shown_signs, signs_said
+from assur.figures.page import side_by_side
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
+from assur.figures.style import BLUE, GREEN, INK, ORANGE, PINK, RED, SKY, SMALL, TEXT
 from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.naming import DescribedSign
@@ -29,8 +30,11 @@ from assur.scene.skeleton import Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
 TALLEST = 105.0
-GAP = 12.0
-"""Of the drawings, in mm."""
+GAP, HEAD = 12.0, 15.0
+"""Of the drawings, in mm: their height at most, and the white between two and above and below one."""
+
+LEAST_PANEL = 55.0
+"""Share of the page's width that a drawing needs at least to stand beside another, in mm."""
 
 LEAST = 0.1
 """Share of the mechanism's size that a drawing spans at least."""
@@ -107,18 +111,24 @@ def _draw(context: Context) -> Drawing:
     spans = np.array([np.ptp(camera.project(cloud), axis=0) for camera in cameras])  # (panels, 2)
     # a mechanism whose joints are in one point has symbols there all the same
     spans = np.maximum(spans, LEAST * context.skeleton.size)
-    scale = min(TALLEST / spans[:, 1].max(), (PAGE - GAP * (len(cameras) + 1)) / spans[:, 0].sum())
+    columns = side_by_side(context.page, len(cameras), LEAST_PANEL)
+    rows = [list(range(k, min(k + columns, len(cameras)))) for k in range(0, len(cameras), columns)]
+    room = context.page - GAP * (columns + 1)
+    scale = min(TALLEST / spans[:, 1].max(), *(room / spans[row, 0].sum() for row in rows))
     rooms = scale * spans
-    width = max(110.0, float(rooms[:, 0].sum()) + GAP * (len(cameras) + 1))
-    height = float(rooms[:, 1].max())
-    page = canvas(width, height + table + 12.0)
-    left = (width - float(rooms[:, 0].sum()) - GAP * (len(cameras) - 1)) / 2
-    for k, (camera, room) in enumerate(zip(cameras, rooms, strict=True)):
-        _panel(context, page, inside(camera, cloud, (left, table + 6.0, float(room[0]), height)), drawn)
-        if len(cameras) > 1:
-            middle = (left + float(room[0]) / 2) * POINTS
-            page.text((middle, (table + 2.5) * POINTS), ("(a)", "(b) XOZ plane")[k], fontsize=TEXT)
-        left += float(room[0]) + GAP
+    width = max(min(110.0, context.page), *(float(rooms[row, 0].sum()) + GAP * (len(row) + 1) for row in rows))
+    heights = [float(rooms[row, 1].max()) + HEAD for row in rows]
+    page = canvas(width, sum(heights) + table)
+    for number, row in enumerate(rows):
+        low = table + sum(heights[number + 1 :])
+        left = (width - float(rooms[row, 0].sum()) - GAP * (len(row) - 1)) / 2
+        for k in row:
+            across, upward = float(rooms[k, 0]), heights[number] - HEAD
+            _panel(context, page, inside(cameras[k], cloud, (left, low + 9.0, across, upward)), drawn)
+            if len(cameras) > 1:
+                middle = (left + across / 2) * POINTS
+                page.text((middle, (low + 2.5) * POINTS), ("(a)", "(b) XOZ plane")[k], fontsize=TEXT)
+            left += across + GAP
     _table(context, page, found, width, table)
     return Drawing(page.figure, _data(context, found))
 

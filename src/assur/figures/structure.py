@@ -38,7 +38,7 @@ def _limbs(context: Context) -> str:
 def _draw(context: Context) -> Drawing:
     skeleton, companion = context.schematic, context.companion
     camera = context.camera("structure", oblique("y", "z", 216, 0.6))
-    view, page = fitted(camera, cloud_of(skeleton, companion), 150, 100, margin=10)
+    view, page = fitted(camera, cloud_of(skeleton, companion), min(150, context.page), 100, margin=10)
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     draw_bodies(page, view, skeleton, letters, Pen(colours=chain_colours(skeleton)))

@@ -1,4 +1,4 @@
-"""Style: one page width, one family of letters, one colour-blind safe palette (Okabe and Ito) for every figure."""
+"""Style: one page width, one family of letters, one palette for every figure, safe for colour-blind readers."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ GREY = "#7f7f7f"
 PALE = "#d9d9d9"
 PAPER = "#ffffff"
 ORANGE = "#e69f00"
-SKY = "#56b4e9"
-GREEN = "#009e73"
-BLUE = "#0072b2"
-RED = "#d55e00"
-PINK = "#cc79a7"
-SERIES = (BLUE, RED, GREEN, PINK, ORANGE, SKY)
-"""Colours that stay apart for every reader, in the order in which they are used."""
+SKY = "#6cbcec"
+GREEN = "#009466"
+BLUE = "#004c8c"
+RED = "#b83c00"
+PINK = "#c46a9c"
+SERIES = (BLUE, RED, GREEN, ORANGE, PINK, SKY)
+"""Colours that stay apart for every reader, the first four in grey too, in the order in which they are used."""
 
 SMALL = 7.0
 TEXT = 8.0

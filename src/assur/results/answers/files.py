@@ -68,20 +68,23 @@ class WrittenReport(Answer):
 
 @dataclass(frozen=True)
 class WrittenFigure:
-    """A figure by what it shows, with its files."""
+    """A figure by what it shows, with its files, and its size in mm."""
 
     name: str
     files: tuple[str, ...]
+    width: float
+    height: float
 
 
 @dataclass(frozen=True)
 class WrittenFigures(Answer):
-    """The figures in a folder; of those that the mechanism does not have why."""
+    """The figures in a folder, drawn for a page of a width in mm; of those that the mechanism does not have why."""
 
     mechanism: str
     folder: str
     figures: tuple[WrittenFigure, ...]
     left_out: Mapping[str, str]
+    width: float
 
 
 @dataclass(frozen=True)

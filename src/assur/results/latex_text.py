@@ -1,0 +1,62 @@
+r"""Words as LaTeX sets them: special characters, signs and powers of prose; mathematics between dollar signs stays."""
+
+from __future__ import annotations
+
+import re
+
+_SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
+_SPECIAL |= {sign: "\\" + sign for sign in "&%$#_{}"}
+_NAMES = """alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi chi psi omega
+Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"""
+_GREEK = dict(zip("αβγδεζηθκλμνξπρστφχψωΔΘΛΞΠΣΦΨΩ", _NAMES.split(), strict=True))
+MATHEMATICAL = {sign: f"^{{{power}}}" for sign, power in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True)}
+MATHEMATICAL |= {sign: f"_{{{power}}}" for sign, power in zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)}
+MATHEMATICAL |= {sign: f"\\{name}" for sign, name in _GREEK.items()}
+MATHEMATICAL |= {"\N{MINUS SIGN}": "-", "\N{MICRO SIGN}": r"\mu", "·": r"\cdot", "±": r"\pm", "°": r"^\circ"}
+MATHEMATICAL |= {"\N{MULTIPLICATION SIGN}": r"\times", "\N{PRIME}": "'", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
+MATHEMATICAL |= {"∥": r"\parallel", "⊥": r"\perp", "◇": r"\diamond", "√": r"\surd", "∞": r"\infty", "→": r"\to"}
+MATHEMATICAL |= {"∪": r"\cup", "∩": r"\cap", "∈": r"\in", "≈": r"\approx", "<": "<", ">": ">", "|": "|"}
+"""Signs that stand in prose -> the same in mathematics, without dollar signs."""
+
+_WORDS = {"\N{EN DASH}": "--", "…": r"\dots{}", "\u202f": r"\,", "\u00a0": "~", "\u2009": r"\,", "'": "'"}
+_LATIN = "\u017f"
+"""The last of the letters that LaTeX reads as they are."""
+
+_RUNS = re.compile(r"\$\$")
+_POWERS = re.compile(r"\}\^\{")
+
+
+def prose(text: str) -> str:
+    r"""Words in LaTeX, for amsmath; mathematics between dollar signs goes through, its signs as commands.
+
+    >>> prose("50 % of l_2, 2·10$^{7}$ mm², κ = 1")
+    '50 \\% of l\\_2, 2$\\cdot $10$^{7}$ mm$^{2}$, $\\kappa $ = 1'
+    >>> prose("10⁻³ and $−α$")
+    '10$^{-3}$ and $-\\alpha $'
+    """
+    parts = re.split(r"\$([^$]*)\$", text)
+    return "".join(escaped(part) if k % 2 == 0 else f"${mathematics(part)}$" for k, part in enumerate(parts))
+
+
+def escaped(text: str) -> str:
+    """The same of words without mathematics in them."""
+    joined = _RUNS.sub("", "".join(map(_sign, text)))
+    return _POWERS.sub("", joined)
+
+
+def mathematics(latex: str) -> str:
+    """LaTeX of mathematics with commands for the signs that are none of its own."""
+    known = {sign: name for sign, name in MATHEMATICAL.items() if sign not in "<>|"}
+    return "".join(_ended(known[sign]) if sign in known else sign for sign in latex)
+
+
+def _sign(sign: str) -> str:
+    if sign in MATHEMATICAL:
+        return f"${_ended(MATHEMATICAL[sign])}$"
+    known = _SPECIAL.get(sign) or _WORDS.get(sign)
+    return known or (sign if sign <= _LATIN else rf"\texttt{{U+{ord(sign):04X}}}")
+
+
+def _ended(command: str) -> str:
+    """A command with a space after it, so that no letter runs into its name."""
+    return command + " " if re.search(r"\\[A-Za-z]+$", command) else command
