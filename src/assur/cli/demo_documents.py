@@ -18,7 +18,7 @@ ROUNDING = 1e-9
 """Largest difference of two routes to a pose, as a share of the mechanism's size."""
 MOST = 1e6
 """Bytes of a page."""
-BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF", ".json": b"{"}
+BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF", ".tex": b"\\begin{figure", ".json": b"{"}
 """How a sound file of each kind begins."""
 
 
