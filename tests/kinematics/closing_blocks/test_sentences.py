@@ -59,13 +59,29 @@ def test_answers_print_what_a_plus_means(drafted, capsys):
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
 def test_what_is_said_of_dyads_holds_of_every_assembly_by_its_sign(drafted, problem):
     """The words are about places of joints, the signs about determinants of screws."""
-    nameless = dataclasses.replace(drafted, modes=Modes())
+    assert held_by_every_assembly(dataclasses.replace(drafted, modes=Modes()), problem) == 1 + 2 * (
+        problem == "inverse"
+    )
+
+
+@pytest.mark.parametrize("arrangement", [["3-RPS"], pytest.param(["6-RUS"], marks=pytest.mark.deep)])
+def test_what_is_said_of_a_limb_in_space_holds_of_every_assembly_by_its_sign(arrangement, tmp_path):
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), *arrangement]) == 0
+    mine = load(str(path))
+    assert held_by_every_assembly(dataclasses.replace(mine, modes=Modes()), "inverse") == int(arrangement[0][0])
+
+
+def held_by_every_assembly(nameless, problem):
+    """How many sentences about places there are, each of which is true where its sign is +, false where it is -."""
     values = assemblies_by_chance(nameless)
     signs = signs_at(nameless, problem, values)
     meanings = list(sign_meanings(nameless, problem).values())
-    assert meanings
+    about_places = [meaning for meaning in meanings if " lies " in meaning]
     for meaning, own in zip(meanings, signs.T, strict=True):
-        words = meaning.split(" ")
+        if meaning not in about_places:
+            continue
+        words = meaning.partition(",")[0].split(" ")
         if " along " in meaning:
             middle, first, slide = words[0], words[-3], words[-1]
             along = frames(nameless, values)[nameless.joints[slide].parent][0] @ nameless.joints[slide].axes[0]
@@ -80,6 +96,7 @@ def test_what_is_said_of_dyads_holds_of_every_assembly_by_its_sign(drafted, prob
             positive = " left " in meaning
         clear = np.abs(side) > 1e-3
         assert np.array_equal(own[clear] > 0, (side > 0)[clear] == positive)
+    return len(about_places)
 
 
 def test_a_draft_says_what_the_signs_mean_that_it_does_not_name(drafted):

@@ -61,9 +61,11 @@ class ModeSign:
 
     Attributes:
         factors: whose product it is.
+        meaning: what holds where it is +; "" where it was not asked yet.
     """
 
     factors: tuple[Factor, ...]
+    meaning: str = ""
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ import json
 import re
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ba
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
+from assur.kinematics.closing_blocks.sentences import sentence
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, StrokeSign
 from assur.kinematics.modes import Problem
 from assur.model.dimensions import of_file
@@ -37,7 +39,7 @@ CALLED = re.compile(r"(name|title)\s*=")
 
 @lru_cache(maxsize=64)
 def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
-    """The signs that name the modes of a problem, as `distinguishing_signs`, found once for each file.
+    """The signs that name the modes of a problem, and what each means: `distinguishing_signs`, once for each file.
 
     >>> from assur.model.registry import load_record
     >>> [sign.joints for sign in kept_signs(load_record("planar_3rpr"), "direct")]
@@ -52,9 +54,9 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
     digest, _, body = (content or b"").partition(b"\n")
     if body and digest.decode("ascii", "replace") == hashlib.sha256(body).hexdigest():
         with suppress(ValueError, TypeError, KeyError, RecursionError):
-            return tuple(ModeSign(tuple(_factor(part) for part in sign)) for sign in json.loads(body))
-    signs = distinguishing_signs(record, problem)
-    body = json.dumps([[_data(factor) for factor in sign.factors] for sign in signs]).encode()
+            return tuple(ModeSign(tuple(map(_factor, parts)), meaning) for meaning, parts in json.loads(body))
+    signs = tuple(replace(sign, meaning=sentence(record, sign)) for sign in distinguishing_signs(record, problem))
+    body = json.dumps([[sign.meaning, [_data(factor) for factor in sign.factors]] for sign in signs]).encode()
     with suppress(OSError):
         keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
     return signs
