@@ -59,9 +59,8 @@ def test_answers_print_what_a_plus_means(drafted, capsys):
 @pytest.mark.parametrize("problem", ["direct", "inverse"])
 def test_what_is_said_of_dyads_holds_of_every_assembly_by_its_sign(drafted, problem):
     """The words are about places of joints, the signs about determinants of screws."""
-    assert held_by_every_assembly(dataclasses.replace(drafted, modes=Modes()), problem) == 1 + 2 * (
-        problem == "inverse"
-    )
+    nameless = dataclasses.replace(drafted, modes=Modes())
+    assert held_by_every_assembly(nameless, problem) == {"direct": 1, "inverse": 2}[problem]
 
 
 @pytest.mark.parametrize("arrangement", [["3-RPS"], pytest.param(["6-RUS"], marks=pytest.mark.deep)])
