@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 
 def test_the_command_says_what_is_proved_with_its_exit_code(tmp_path, assur_cli):
     document = assur_cli("derive", "fivebar", "--problem", "direct", "--prove", "--json").json
@@ -20,6 +22,7 @@ def test_the_command_says_what_is_proved_with_its_exit_code(tmp_path, assur_cli)
     assert assur_cli("verify", str(file)).code == 3
 
 
+@pytest.mark.deep
 def test_a_problem_without_identities_is_said(tmp_path, assur_cli):
     run = assur_cli("derive", "fivebar", "--prove", "--json")
     document = run.json

@@ -42,6 +42,7 @@ def test_a_determinant_vanishes_at_no_solution_for_general_inputs(name):
     assert {own.outcome for own in cases(name).values()} == {"apart"}
 
 
+@pytest.mark.deep
 def test_legs_without_length_fix_a_platform_twice():
     """Its point is then where the leg's joint on the base is, which is one equation more than a leg of a length has."""
     found = {str(own.condition): own.outcome for own in cases("planar_3rpr").values()}

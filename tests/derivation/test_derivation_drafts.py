@@ -140,6 +140,7 @@ def test_the_vector_of_a_platform_that_slides_ends_at_the_point_that_the_pose_gi
     assert "M1 < 0: b1.D and the platform's point are nearer than the offset of platform" in said
 
 
+@pytest.mark.deep
 def test_the_inverse_problem_of_a_sliding_draft_is_proved(tmp_path, capsys):
     record = draft(SLIDING["3-RRP"], tmp_path)
     assert main(["derive", str(record.file), "--problem", "inverse", "--prove", "--json"]) == 0

@@ -15,6 +15,7 @@ def test_rods_between_balls_may_stand_turned_about_their_short_links_at_home(sho
     assert len(derive(load_record(str(path))).direct.roots) == 1
 
 
+@pytest.mark.deep
 def test_the_root_of_a_delta_has_the_sign_of_its_translations(tmp_path, capsys):
     """Whether its platform could turn as well is another factor of the closure, and no sign of the two assemblies."""
     path, form = tmp_path / "mine.toml", tmp_path / "formulas.py"

@@ -24,8 +24,8 @@ from assur.model.formula import parse
 from assur.model.registry import load_record
 
 KATEX = Path(__file__).parent / "katex"
-QUICK = ("zeng2019", "fivebar", "delta_4s")
-DEEP = ("three_crr", "orthoglide", "tripteron", "three_p2us")
+QUICK = ("zeng2019",)
+DEEP = ("fivebar", "delta_4s", "three_crr", "orthoglide", "tripteron", "three_p2us")
 NAMES = [*QUICK, *(pytest.param(name, marks=pytest.mark.deep) for name in DEEP)]
 
 

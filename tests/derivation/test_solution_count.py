@@ -10,8 +10,8 @@ from assur.derivation.solution import analytic_solution
 from assur.derivation.solution_count import solution_count
 from assur.model.registry import load_record
 
-QUICK = ("fivebar", "zeng2019")
-OTHERS = ("planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide",
+QUICK = ("fivebar",)
+OTHERS = ("zeng2019", "planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide",
           "tsai_platform", "three_p2us", "three_crr", "tripteron")  # fmt: skip
 
 

@@ -169,6 +169,7 @@ S = 100
         assert figures.encoded(figures.draw(record, name), "pdf").startswith(b"%PDF")
 
 
+@pytest.mark.deep
 def test_without_closed_form_few_figures_are_missing():
     known = figures.Context(assur.load("fivebar"))
     record = dataclasses.replace(known.record, closed_form=None)

@@ -34,6 +34,7 @@ def test_an_unknown_method_is_refused():
         direct(load_record("fivebar"), [1.0, 2.0], method="newton")
 
 
+@pytest.mark.deep
 def test_of_assemblies_that_move_a_few_are_kept_and_all_others(tmp_path):
     """Three equal radial slides driven to turn together: one platform turns about its middle, or comes to rest."""
     path = tmp_path / "slides.toml"

@@ -48,7 +48,9 @@ def test_the_topology_of_one_mode_is_the_same_from_each_of_its_assemblies():
     assert facts[0] == facts[1]
 
 
-@pytest.mark.parametrize("what", ["three_upu", load_record("three_upu")], ids=["chains", "file"])
+@pytest.mark.parametrize(
+    "what", [pytest.param("three_upu", marks=pytest.mark.deep), load_record("three_upu")], ids=["chains", "file"]
+)
 def test_every_mode_can_be_asked_for_by_its_name(what):
     for mode in operation_modes(what):
         found = assur.topology(what, mode=mode.name)
