@@ -11,8 +11,8 @@ from assur.derivation.solution_count import solution_count
 from assur.model.registry import load_record
 
 QUICK = ("fivebar",)
-OTHERS = ("zeng2019", "planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide",
-          "tsai_platform", "three_p2us", "three_crr", "tripteron")  # fmt: skip
+OTHERS = ("zeng2019", "planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r",
+          "orthoglide", "tsai_platform", "three_p2us", "three_crr", "tripteron")  # fmt: skip
 
 
 @pytest.fixture
