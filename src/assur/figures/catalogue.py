@@ -164,12 +164,12 @@ def write(
     paths: list[Path] = []
     try:
         for done, entry in enumerate(chosen):
-            made = drawing(record, entry.name, shared)
+            drawing(record, entry.name, shared)
             if progress:
                 progress(done, len(chosen))  # may end it before what is half known is written
             for form in formats:
-                content = _content(shared, entry, made, form)
-                paths.append(write_whole(Path(folder) / f"{entry.name}.{form}", content))
+                path = Path(folder) / f"{entry.name}.{form}"
+                paths.append(write_whole(path, content(record, entry.name, form, shared)))
             if progress:
                 progress(done + 1, len(chosen))
     except KeyboardInterrupt:
@@ -213,8 +213,9 @@ def _chosen(record: MechanismRecord, context: Context, asked: Iterable[str] | No
     return _present(context) if asked is None else [_entry(record, name, context) for name in asked]
 
 
-def _content(context: Context, entry: FigureKind, made: Drawing, form: str) -> str | bytes:
+def content(record: MechanismRecord, name: str, form: str, context: Context) -> str | bytes:
     """A file of a figure: its numbers, LaTeX that includes it, or a picture."""
+    entry, made = _entry(record, name, context), drawing(record, name, context)
     if form == "json":
         return _json(context, entry, made)
     if form == "tex":

@@ -14,6 +14,7 @@ from markupsafe import Markup
 
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import inline
+from assur.report.formulas.tex import annotated
 from assur.results import typeset_text
 from assur.results.kinds import (
     Cell,
@@ -96,7 +97,7 @@ def _environment() -> jinja2.Environment:
         numeric=numeric_columns,
         filtered=filtered,
         separator=SEPARATOR,
-        trusted=lambda formula: Markup(formula.mathml),
+        trusted=lambda formula: Markup(annotated(formula.mathml)),
     )
     return environment
 
@@ -125,7 +126,7 @@ class Hyperlinks:
     def cell(self, value: Cell) -> Markup:
         """A cell of a table."""
         if isinstance(value, PrintedFormula):
-            return Markup(value.mathml)  # made by assur.report.formulas, which escapes
+            return Markup(annotated(value.mathml))  # made by assur.report.formulas, which escapes
         if value is None:
             return Markup('<span class="none">–</span>')
         if isinstance(value, str) and _SIGNS.fullmatch(value):

@@ -18,11 +18,15 @@ MATHEMATICAL |= {"∥": r"\parallel", "⊥": r"\perp", "◇": r"\diamond", "√"
 MATHEMATICAL |= {"∪": r"\cup", "∩": r"\cap", "∈": r"\in", "≈": r"\approx", "<": "<", ">": ">", "|": "|"}
 """Signs that stand in prose -> the same in mathematics, without dollar signs."""
 
-_WORDS = {"\N{EN DASH}": "--", "…": r"\dots{}", "\u202f": r"\,", "\u00a0": "~", "\u2009": r"\,", "'": "'"}
+_WORDS = {"\N{EN DASH}": "--", "…": r"\dots{}", "\u202f": r"\,", "\u00a0": "~", "\u2009": r"\,"}
+_WORDS |= {"‘": "`", "’": "'", "“": "``", "”": "''", "\N{EM DASH}": "---"}
 _LATIN = "\u017f"
 """The last of the letters that LaTeX reads as they are."""
 
 _RUNS = re.compile(r"\$\$")
+_BARE = re.compile(r"([_^])(\\[A-Za-z]+)(?![A-Za-z{])")
+"""An index that is one command, which only braces make safe."""
+
 _POWERS = re.compile(r"\}\^\{")
 
 
@@ -31,8 +35,8 @@ def prose(text: str) -> str:
 
     >>> prose("50 % of l_2, 2·10$^{7}$ mm², κ = 1")
     '50 \\% of l\\_2, 2$\\cdot $10$^{7}$ mm$^{2}$, $\\kappa $ = 1'
-    >>> prose("10⁻³ and $−α$")
-    '10$^{-3}$ and $-\\alpha $'
+    >>> prose("10⁻³ and $−α_\\min$")
+    '10$^{-3}$ and $-\\alpha _{\\min}$'
     """
     parts = re.split(r"\$([^$]*)\$", text)
     return "".join(escaped(part) if k % 2 == 0 else f"${mathematics(part)}$" for k, part in enumerate(parts))
@@ -47,7 +51,8 @@ def escaped(text: str) -> str:
 def mathematics(latex: str) -> str:
     """LaTeX of mathematics with commands for the signs that are none of its own."""
     known = {sign: name for sign, name in MATHEMATICAL.items() if sign not in "<>|"}
-    return "".join(_ended(known[sign]) if sign in known else sign for sign in latex)
+    whole = _BARE.sub(r"\1{\2}", latex)
+    return "".join(_ended(known[sign]) if sign in known else sign for sign in whole)
 
 
 def _sign(sign: str) -> str:

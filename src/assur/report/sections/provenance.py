@@ -23,12 +23,13 @@ PACKAGES = ("numpy", "scipy", "sympy", "networkx", "matplotlib", "scikit-image",
 def provenance(findings: Findings) -> Section:
     """Citations, versions, dimensions, the command that makes the same report."""
     record = findings.record
-    citations = Facts("Please cite", (("mechanism", record.source or "no source is stated"), ("software", _software())))
+    citations = Facts("Please cite", (("mechanism", record.source or "no source is stated"), ("software", software())))
     again = Facts("This report again", tuple(_again(record)))
     return Section("Sources and versions", results=[citations, again, _versions()])
 
 
-def _software() -> str:
+def software() -> str:
+    """How this package is cited."""
     return f"{AUTHORS}. {TITLE}. Version {assur.__version__}, {LICENSE}."
 
 

@@ -58,12 +58,13 @@ class ReportNumber(Scalar):
 
 @dataclass(frozen=True)
 class WrittenReport(Answer):
-    """A report and all its single numbers; one that was interrupted is not written."""
+    """A report and all its single numbers, and its files for LaTeX; one that was interrupted is not written."""
 
     mechanism: str
     file: str | None
     numbers: tuple[ReportNumber, ...]
     bytes: int | Absent = ABSENT
+    latex: tuple[str, ...] | Absent = ABSENT
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,241 @@
+r"""A report as a folder for LaTeX: the document, its figures as PDF, its tables as LaTeX and CSV; pdflatex sets it."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from assur.figures import catalogue as figures
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.report.formulas.tex import broken_tex, tex
+from assur.report.render import Page, error_text, filled, scalar_text, slug
+from assur.report.sections.provenance import software
+from assur.results import typeset_text
+from assur.results.files import write_whole
+from assur.results.kinds import (
+    Cell,
+    Facts,
+    Formulas,
+    Matrix,
+    Picture,
+    PrintedFormula,
+    Result,
+    Scalar,
+    Section,
+    Table,
+)
+from assur.results.latex_text import prose
+
+DOCUMENT, FIGURES, TABLES = "report.tex", "figures", "tables"
+HEAD = r"""\documentclass[10pt,a4paper]{article}
+\usepackage{amsmath,amssymb,graphicx}
+\setlength{\textwidth}{176mm}\setlength{\oddsidemargin}{-8.4mm}\setlength{\evensidemargin}{-8.4mm}
+\setlength{\textheight}{240mm}\setlength{\topmargin}{-14mm}
+\setcounter{MaxMatrixCols}{40}
+\graphicspath{{figures/}}
+\newsavebox{\drawnbox}
+\newcommand{\fitted}[1]{\sbox{\drawnbox}{#1}\ifdim\wd\drawnbox>0.94\linewidth
+  \resizebox{0.94\linewidth}{!}{\usebox{\drawnbox}}\else\usebox{\drawnbox}\fi}
+\sloppy
+"""
+LEVELS = ("section", "subsection", "subsubsection", "paragraph")
+LONGEST = 36
+"""Rows of a table in print; the others are in its CSV file."""
+
+WORDS = 34
+"""A cell with more letters is set as a paragraph."""
+
+
+@dataclass(frozen=True)
+class Paper:
+    """The files of a report for LaTeX by their paths in the folder; figures are drawn from what was found."""
+
+    findings: Findings
+    files: dict[str, str | bytes] = field(default_factory=dict)
+
+    def document(self, page: Page) -> str:
+        """The document; what it includes is among the files then."""
+        record = self.findings.record
+        lines = [
+            rf"\title{{{prose(page.title or record.name)}}}",
+            rf"\author{{{prose(page.eyebrow)}}}\date{{}}",
+            r"\begin{document}",
+            r"\maketitle",
+            *_nomenclature(record),
+            *(line for section in page.sections for line in self._section(section, 0)),
+            *_bibliography(record),
+            r"\end{document}",
+        ]
+        return HEAD + "\n".join(lines) + "\n"
+
+    def _section(self, section: Section, level: int) -> Iterator[str]:
+        yield f"\n\\{LEVELS[min(level, len(LEVELS) - 1)]}{{{prose(section.title)}}}"
+        yield from (prose(part) + "\n" for part in section.text.split("\n\n") if part)
+        scalars = [item for item in section.results if isinstance(item, Scalar)]
+        if scalars:
+            yield from self._table(_of_scalars(section.title, scalars))
+        for result in section.results:
+            if isinstance(result, Section):
+                yield from self._section(result, level + 1)
+            elif not isinstance(result, Scalar):
+                yield from self._result(result)
+
+    def _result(self, result: Result) -> Iterator[str]:
+        match result:
+            case Facts():
+                yield rf"\paragraph{{{prose(result.title)}}}"
+                yield r"\begin{description}"
+                yield from (rf"\item[{prose(name)}] {prose(text)}" for name, text in result.items)
+                yield r"\end{description}"
+            case Formulas():
+                yield rf"\paragraph{{{prose(result.title)}}} {prose(result.caption)}"
+                yield from (line for formula in result.lines for line in _equation(formula))
+            case Matrix():
+                yield r"\begin{equation}"
+                yield rf"\fitted{{$\displaystyle {_matrix(result)}$}}"
+                yield r"\end{equation}"
+            case Table():
+                yield from self._table(result)
+            case Picture():
+                yield from self._picture(result)
+
+    def _table(self, whole: Table) -> Iterator[str]:
+        table = filled(whole)
+        name = f"{len(self.files):02d}-{slug(table.title)[:48] or 'table'}"
+        path = f"{TABLES}/{name}"
+        self.files[f"{path}.csv"] = table_csv(table)
+        self.files[f"{path}.tex"] = table_tex(table)
+        rest = len(table.rows) - LONGEST
+        more = f" {rest} further rows are in the file {path}.csv." if rest > 0 else ""
+        known = f" Known by: {table.known_by}." if table.known_by else ""
+        yield r"\begin{table}[htbp]\centering\footnotesize"
+        yield rf"\caption{{{prose(f'{table.title}. {table.caption}{known}{more}'.strip())}}}\label{{tab:{name}}}"
+        yield rf"\fitted{{\input{{{path}}}}}"
+        yield r"\end{table}"
+
+    def _picture(self, picture: Picture) -> Iterator[str]:
+        record, name = self.findings.record, picture.name
+        for ending in ("pdf", "tex"):
+            self.files[f"{FIGURES}/{name}.{ending}"] = figures.content(record, name, ending, self.findings)
+        yield rf"\input{{{FIGURES}/{name}}}"
+
+
+def write_paper(findings: Findings, page: Page, folder: str | Path) -> list[Path]:
+    """Write a report as a folder for LaTeX and return the paths; `report.tex` comes last, when what it needs is there.
+
+    Errors:
+        OutputError: a file that cannot be written; what was there before stays whole.
+    """
+    paper = Paper(findings)
+    document = paper.document(page)
+    root = Path(folder)
+    for part in (FIGURES, TABLES):
+        (root / part).mkdir(parents=True, exist_ok=True)
+    return [write_whole(root / path, text) for path, text in {**paper.files, DOCUMENT: document}.items()]
+
+
+def table_csv(table: Table) -> str:
+    r"""A table as CSV: titles, then rows; numbers with every digit, formulas as LaTeX.
+
+    >>> table_csv(Table("t", ("a", "b"), ((0.1, None), ("x, y", 2.0))))
+    'a,b\n0.1,\n"x, y",2.0\n'
+    """
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(table.columns)
+    writer.writerows(
+        [tex(cell.mathml) if isinstance(cell, PrintedFormula) else cell for cell in row] for row in table.rows
+    )
+    return stream.getvalue()
+
+
+def table_tex(table: Table) -> str:
+    r"""A table as a tabular, its first rows where there are many.
+
+    >>> print(table_tex(Table("t", ("a", "b"), (("50 %", 2.0),))))
+    \begin{tabular}{ll}
+    \hline
+    a & b \\
+    \hline
+    50 \% & 2 \\
+    \hline
+    \end{tabular}
+    <BLANKLINE>
+    """
+    rows = [[_cell(cell) for cell in row] for row in table.rows[:LONGEST]]
+    texts = [[cell for cell in column if isinstance(cell, str)] for column in zip(*table.rows, strict=True)]
+    wide = [max(map(len, column), default=0) > WORDS for column in texts] or [False] * len(table.columns)
+    kinds = "".join("p{50mm}" if own else "l" for own in wide)
+    lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", _row(map(prose, table.columns)), r"\hline"]
+    return "\n".join([*lines, *map(_row, rows), r"\hline", r"\end{tabular}"]) + "\n"
+
+
+def _row(cells: Iterable[str]) -> str:
+    return " & ".join(cells) + r" \\"
+
+
+def _cell(cell: Cell) -> str:
+    if isinstance(cell, PrintedFormula):
+        return f"${tex(cell.mathml)}$"
+    if cell is None:
+        return "--"
+    return prose(typeset_text.short(cell) if isinstance(cell, float) else cell)
+
+
+def _of_scalars(title: str, scalars: list[Scalar]) -> Table:
+    rows = tuple(
+        (
+            item.name,
+            f"{scalar_text(item)}{f' ± {error_text(item)}' if error_text(item) else ''} {item.unit}".strip(),
+            item.known_by,
+            item.note,
+        )
+        for item in scalars
+    )
+    return Table(f"{title}: numbers", ("quantity", "value", "known by", "note"), rows)
+
+
+def _equation(formula: PrintedFormula) -> Iterator[str]:
+    """A line of mathematics with a number of its own, and what it says with the number of the source below."""
+    source = f"Eq. ({formula.equation.strip('()')}) of the source" if formula.equation else ""
+    words = ": ".join(part for part in (source, formula.meaning) if part)
+    yield r"\begin{equation}"
+    yield rf"\fitted{{$\displaystyle {broken_tex(formula.mathml)}$}}"
+    yield r"\end{equation}"
+    if words:
+        yield rf"\noindent {prose(words)}\par"
+
+
+def _matrix(matrix: Matrix) -> str:
+    rows = r" \\ ".join(
+        " & ".join(prose(typeset_text.short(float(value) + 0.0)).replace("$", "") for value in row)
+        for row in matrix.values
+    )
+    return rf"\text{{{prose(matrix.name)}}} = \begin{{bmatrix}}{rows}\end{{bmatrix}}"
+
+
+def _nomenclature(record: MechanismRecord) -> Iterator[str]:
+    """Every input, coordinate and dimension, with its value and unit."""
+    yield r"\section*{Nomenclature}"
+    yield r"\begin{description}\setlength{\itemsep}{0pt}\setlength{\parskip}{0pt}"
+    for item in record.inputs:
+        yield rf"\item[{prose(item.name)}] input, the {item.coordinate.kind} of joint {prose(item.coordinate.joint)}"
+    for name in record.platform.pose:
+        yield rf"\item[{prose(name)}] coordinate of the platform"
+    for name, dimension in record.parameters.items():
+        unit = "" if dimension.unit == "1" else f" {dimension.unit}"
+        words = f": {dimension.meaning}" if dimension.meaning else ""
+        yield rf"\item[{prose(name)}] {prose(f'{dimension.value:g}{unit}{words}')}"
+    yield r"\end{description}"
+
+
+def _bibliography(record: MechanismRecord) -> Iterator[str]:
+    yield r"\begin{thebibliography}{9}"
+    if record.source:
+        yield rf"\bibitem{{mechanism}} {prose(record.source)}"
+    yield rf"\bibitem{{assur}} {prose(software())}"
+    yield r"\end{thebibliography}"
