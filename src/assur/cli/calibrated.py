@@ -16,6 +16,7 @@ from assur.cli.paths import output_file
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import mechanism_header
 from assur.machine.calibration.fit import calibration
+from assur.machine.calibration.measured import FRAME, Measured
 from assur.mechanism import Mechanism
 from assur.model.mechanism import Input
 from assur.results.answers.calibration import CalibrationAnswer
@@ -26,33 +27,37 @@ from assur.results.plain_text import short
 def outcome(
     record: Mechanism,
     inputs: NDArray[np.float64],
-    names: Sequence[str],
-    measured: NDArray[np.float64],
+    measured: Measured,
+    readings: NDArray[np.float64],
     hold: Sequence[str],
     output: str | None,
+    *,
+    frame: bool,
 ) -> Outcome:
-    """The best fit of measured lengths (N, k) at inputs (N, n), in lengths and rad."""
+    """The best fit of readings (N, k) at inputs (N, n), in lengths and rad."""
     written = None if output is None else output_file(output, (".toml",))
-    own = calibration(record, inputs, names, measured, hold)
+    own = calibration(record, inputs, measured, readings, hold, frame=frame)
     if written is not None:
         text = record.file.read_text(encoding="utf-8")
         write_whole(written, changed(record, text, own.parameters))
     answer = CalibrationAnswer(
         **mechanism_header(record),
-        measurements=len(measured),
-        measured=tuple(names),
+        measurements=len(readings),
+        measured=measured.names,
         parameters=own.parameters,
         sigma=own.sigma,
+        covariance=tuple(tuple(row) for row in own.covariance.tolist()),
         held=own.held,
         residual_before=own.before,
         residual_after=own.after,
         outliers=own.outliers,
         file=None if written is None else str(written),
         units={
-            "parameters": f"dimensions in their units; added to inputs in {record.unit} or rad",
+            "parameters": f"dimensions in their units; added to inputs, and of the frame, in {record.unit} or rad",
             "sigma": "as parameters",
-            "residual_before": record.unit,
-            "residual_after": record.unit,
+            "covariance": "products of those of parameters",
+            "residual_before": f"{record.unit}, angles by the characteristic length",
+            "residual_after": f"{record.unit}, angles by the characteristic length",
         },
     )
     return Outcome(answer, lambda: _shown(record, answer))
@@ -109,7 +114,8 @@ def _shown(record: Mechanism, answer: CalibrationAnswer) -> Iterable[RenderableT
     rows = []
     for name, value in answer.parameters.items():
         known = record.parameters.get(name)
-        was = short(known.value) if known else "added to the input"
+        other = "measuring frame" if name in FRAME else "added to the input"
+        was = short(known.value) if known else other
         rows.append((name, was, f"{value:.9g}", short(answer.sigma[name])))
     yield table(("parameter", "was", "is", "sigma"), rows, left=("parameter",))
     if answer.held:

@@ -158,3 +158,9 @@ def whole_number(text: str, what: str) -> int:
     if re.fullmatch(r"[+-]?\d{1,9}", text, re.ASCII):
         return int(text)
     raise UsageError(f"{what}: '{text}' is not a whole number")
+
+
+def centre_of(text: str | None) -> tuple[float, float, float]:
+    """A point written as X,Y,Z, in the file's unit; the origin without."""
+    x, y, z = numbers(text.split(",") if text else ("0", "0", "0"), ("x", "y", "z"), "--centre")
+    return x, y, z

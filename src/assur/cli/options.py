@@ -58,6 +58,13 @@ Held = Annotated[
     Parameter(metavar="NAME=VALUE,..", help="Hold coordinates; of a pose with more than three, angles as at home."),
 ]
 
+Centre = Annotated[
+    str | None,
+    Parameter(
+        metavar="X,Y,Z", help="From which a distance is measured, in the measuring frame; its origin if left out."
+    ),
+]
+
 
 @Parameter(name="*", group=SHARED)
 @dataclass(frozen=True)

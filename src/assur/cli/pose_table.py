@@ -8,9 +8,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.cli.numbers import NUMBER
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import pose_from_border
+from assur.machine.calibration.measured import DISTANCE, READ, TURNS, Measured, measured_of
 from assur.mechanism import Mechanism
+from assur.model.pose import LENGTHS
 
 
 def pose_table(record: Mechanism, path: str) -> NDArray[np.float64]:
@@ -27,26 +30,33 @@ def pose_table(record: Mechanism, path: str) -> NDArray[np.float64]:
     return np.array([pose_from_border(record, row[order]) for row in rows])
 
 
-def measurements(record: Mechanism, path: str) -> tuple[NDArray[np.float64], list[str], NDArray[np.float64]]:
-    """Inputs (N, n) in lengths and rad, names of measured coordinates, and these (N, k), of a .csv.
+def measurements(
+    record: Mechanism, path: str, centre: tuple[float, float, float]
+) -> tuple[NDArray[np.float64], Measured, NDArray[np.float64]]:
+    """Inputs (N, n) in lengths and rad, what is measured, and readings (N, k) of it, of a .csv.
 
     Errors:
-        UsageError: a column of an input that is not there, or one that is no length of the pose, and what `table`
-            refuses.
+        UsageError: a column of an input that is not there, one that is named twice or is none of what can be measured,
+            and what `table` refuses.
     """
     names, rows = table(path)
     inputs = [item.name for item in record.inputs]
-    lengths = [name for name in ("x", "y", "z") if name in record.platform.pose]
-    hint = f"the first line: {','.join([*inputs, *lengths])}"
+    lengths = [name for name in LENGTHS if name in record.platform.pose] or TURNS
+    hint = f"the first line: {','.join([*inputs, *lengths])}; to be measured are {', '.join(READ)}"
     lacking = [name for name in inputs if name not in names]
     others = [name for name in names if name not in inputs]
-    wrong = [name for name in others if name not in lengths]
-    if lacking or wrong or not others or len(set(names)) < len(names):
-        told = f"no column {lacking[0]}" if lacking else f"column {wrong[0]}" if wrong else "columns"
-        raise UsageError(f"{path}:1: {told}; inputs and measured lengths of the pose are wanted", hint=hint)
+    wrong = [name for name in others if name not in READ]
+    twice = [name for place, name in enumerate(names) if name in names[:place]]
+    if lacking or wrong or not others or twice:
+        told = f"no column {lacking[0]}, an input" if lacking else "no column of what is measured"
+        told = f"column {names.index(wrong[0]) + 1} is '{wrong[0]}'" if wrong else told
+        told = f"column {twice[0]} twice" if twice else told
+        raise UsageError(f"{path}:1: {told}", hint=hint)
     units = [record.angle_unit if item.coordinate.kind == "angle" else 1.0 for item in record.inputs]
+    read_units = [1.0 if name in (*LENGTHS, DISTANCE) else record.angle_unit for name in others]
     given = rows[:, [names.index(name) for name in inputs]] * units
-    return given, others, rows[:, [names.index(name) for name in others]]
+    measured = measured_of(record, others, centre)
+    return given, measured, rows[:, [names.index(name) for name in others]] * read_units
 
 
 def table(path: str) -> tuple[list[str], NDArray[np.float64]]:
@@ -68,14 +78,14 @@ def table(path: str) -> tuple[list[str], NDArray[np.float64]]:
 
 def _row(path: str, number: int, line: list[str], names: list[str]) -> list[float]:
     if len(line) != len(names):
-        raise UsageError(f"{path}:{number}: {len(line)} values, {len(names)} columns are named")
-    row = []
+        hint = "numbers with a decimal point, commas between them"
+        raise UsageError(f"{path}:{number}: {len(line)} values, {len(names)} columns are named", hint=hint)
+    row: list[float] = []
     for name, text in zip(names, line, strict=True):
-        try:
-            value = float(text)
-        except ValueError:
-            value = float("nan")
-        if not np.isfinite(value):
-            raise UsageError(f"{path}:{number}: {name} = '{text.strip()}' is not a finite number")
-        row.append(value)
+        if not NUMBER.fullmatch(text.strip()):
+            raise UsageError(
+                f"{path}:{number}: column {len(row) + 1}, {name} = '{text.strip()}', is not a finite number",
+                hint="numbers alone, in the file's units",
+            )
+        row.append(float(text))
     return row

@@ -7,7 +7,8 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
-from assur.machine.calibration.identification import Identification, identification, random_poses
+from assur.machine.calibration.chosen_poses import random_poses
+from assur.machine.calibration.identification import Identification, identification
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +51,40 @@ def test_the_frame_takes_what_it_can_and_indices_grow_with_what_is_measured():
     turned = identification(record, poses, ["x", "y", "rz"])
     assert turned.observability["O3"] >= own.observability["O3"] > 0
     assert str(own).splitlines()[0] == "5 of 5 told by 6 poses, x, y"
+
+
+def test_base_parameters_are_what_is_told_in_truth(zeng):
+    """Moving any parameter does what its part in the base parameters says."""
+    base = zeng.base_parameters
+    assert [own for own in base.values() if "l7" in own] == [{"l7": 1.0, "l8": pytest.approx(1.0)}]
+    assert len(base) == zeng.rank
+    told = zeng.matrix[:, [zeng.parameters.index(name) for name in base]]
+    for place, name in enumerate(zeng.parameters):
+        parts = [own.get(name, 0.0) for own in base.values()]
+        np.testing.assert_allclose(told @ parts, zeng.matrix[:, place], atol=1e-7)
+
+
+def test_a_dimension_that_alone_does_not_assemble_is_none_of_the_parameters():
+    record = assur.load("three_crr")
+    own = identification(record, random_poses(record, 2))
+    assert own.strained == ("rise",)
+    assert "rise" not in own.parameters
+
+
+def test_heights_over_a_plate_do_not_tell_a_deltas_arms_where_the_gauge_begins_anywhere():
+    """As large a Delta of the same shape has the same heights but for a constant."""
+    record = assur.load("delta_4s")
+    plate = np.array([[x, y, -0.9] for x in (-0.3, 0.0, 0.3) for y in (-0.3, 0.0, 0.3)])
+    own = identification(record, plate, ["z"], frame=True)
+    (size,) = [part.combination for part in own.unidentifiable if "frame.z" in part.combination]
+    lengths = {name: record.parameters[name].value for name in ("L", "l", "wB", "uP")}
+    assert size == pytest.approx(
+        {"L": 1.0, "l": lengths["l"] / lengths["L"], "wB": (lengths["wB"] - lengths["uP"]) / lengths["L"]}
+        | {"frame.z": -0.9 / lengths["L"]},
+        rel=1e-6,
+    )
+    known = identification(record, plate, ["z"])
+    assert not [part for part in known.unidentifiable if "L" in part.combination]
 
 
 def test_nothing_told_is_nothing_observed():

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import cos, pi, sin, sqrt
 from types import SimpleNamespace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.frames import frames
+from assur.joint_graph.frames import Frame, frames
 from assur.joint_graph.geometry import JointGeometry, characteristic_length, written_joint
 from assur.joint_graph.state import joint_state
 from assur.joint_graph.tree import joint_graph
@@ -69,11 +70,12 @@ def geometry_errors(record: MechanismRecord, values: FloatArray) -> GeometryErro
             points.setdefault(copy, np.zeros(3))
             yield copy
 
+    placed = {link: (turn[0], origin[0]) for link, (turn, origin) in frames(record, values[None]).items()}
     for place, (name, joint) in enumerate(record.joints.items()):
-        for parameter, link, twist in _of_joint(record, joint, values):
+        for parameter, link, twist in _of_joint(record, joint, values, placed[joint.parent]):
             for copy in copies(parameter, name.rpartition(".")[0], link):
                 twists[copy][place] += twist
-    turn = frames(record, values[None])[record.platform.link][0][0]
+    turn, _ = placed[record.platform.link]
     for parameter, shift in _of_point(record):
         for copy in copies(parameter, "", record.platform.link):
             points[copy] += turn @ shift
@@ -96,21 +98,23 @@ def _of_link(record: MechanismRecord, copy: str) -> bool:
     return copy.rpartition(".")[0] in record.links
 
 
-def _of_joint(record: MechanismRecord, joint: Joint, values: FloatArray) -> Iterator[tuple[str, str, FloatArray]]:
-    """Dimension, link and twist (6,) of a joint's child, for each dimension in either link."""
+def _of_joint(
+    record: MechanismRecord, joint: Joint, values: FloatArray, parent: Frame
+) -> Iterator[tuple[str, str, FloatArray]]:
+    """Dimension, link and twist (6,) of a joint's child, for each dimension in either link, its parent standing so."""
     own = joint.written
     if own is None:
         return
     start = joint_graph(record).slices[joint.name]
     state = joint_state(joint.type, values[start][:, None])[:, 0].tolist()
-    turn, origin = (part[0] for part in frames(record, values[None])[joint.parent])
+    turn, origin = parent
     in_parent = _names_in([own.at, *own.axes, *([own.child_axis] if own.child_axis else [])])
     in_parent |= own.pitch.names if own.pitch else frozenset()
     in_child = _names_in([own.child_at])
     for link, names in ((joint.parent, in_parent), (joint.child, in_child)):
         for parameter in record.parameters:
             if parameter in names:
-                below, above, size = _moved(record, joint, parameter, link == joint.child)
+                below, above, size = _moved(record, joint.name, parameter, link == joint.child)
                 (first, at_first), (second, at_second) = (_child(joint, part, state) for part in (below, above))
                 spin = (second - first) @ (0.5 * (first + second)).T / size
                 angular = 0.5 * np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]])
@@ -126,10 +130,12 @@ def _names_in(vectors: Sequence[WrittenVector]) -> frozenset[str]:
     return frozenset().union(*(part.names for part in formulas))
 
 
+@lru_cache(maxsize=1024)  # many poses of one mechanism ask
 def _moved(
-    record: MechanismRecord, joint: Joint, parameter: str, in_child: bool
+    record: MechanismRecord, name: str, parameter: str, in_child: bool
 ) -> tuple[JointGeometry, JointGeometry, float]:
     """A joint with a dimension a little less and a little more in one of its links, and how far these are apart."""
+    joint = record.joints[name]
     step = STEP * max(abs(record.parameters[parameter].inside), _size(record, parameter))
     as_written = written_joint(joint, _reading(vars(record.values)))
     below, above = (

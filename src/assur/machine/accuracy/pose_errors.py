@@ -127,8 +127,8 @@ def pose_errors(record: MechanismRecord, pose: ArrayLike, mode: str | None = Non
     return pose_errors_at(record, values)
 
 
-def pose_errors_at(record: MechanismRecord, values: FloatArray) -> PoseErrors:
-    """Errors at joint values (n,) that close the loops."""
+def pose_errors_at(record: MechanismRecord, values: FloatArray, *, bent: bool = True) -> PoseErrors:
+    """Errors at joint values (n,) that close the loops; `bent`: with where links settle that do not assemble."""
     own = error_closure(record, values)
     if not own.held:
         return PoseErrors(record, values, Status.parallel, {}, {}, {}, (), {})
@@ -142,7 +142,7 @@ def pose_errors_at(record: MechanismRecord, values: FloatArray) -> PoseErrors:
     stresses = {errors.names[place]: _borne(own, left_open[:, place], points) for place in lost}
     moved[:, lost] = np.nan
     settled: tuple[str, ...] = ()
-    if len(lost) and any(elastic(record, link) for link in record.links):
+    if bent and len(lost) and any(elastic(record, link) for link in record.links):
         try:
             moved[:, lost] = elastic_errors(record, values, errors.twists[lost].transpose(1, 2, 0))
             moved[:3, lost] += errors.point[lost].T
