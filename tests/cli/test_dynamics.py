@@ -84,6 +84,24 @@ def test_forces_given_move_the_mechanism_forward(assur_cli, written):
     assert (alone.code, "add --forward" in alone.err) == (2, True)
 
 
+def test_samples_of_a_table_are_those_of_a_file(assur_cli, tmp_path):
+    rows = [[0.0, 0.0, 210.0], [0.1, 4.0, 212.0], [0.2, 9.0, 211.0], [0.4, 12.0, 205.0], [0.5, 13.0, 204.0]]
+    times, poses = [row[0] for row in rows], [row[1:] for row in rows]
+    (tmp_path / "way.toml").write_text(f"[samples]\nt = {times}\npose = {poses}\n", encoding="utf-8")
+    table = ["y,t,x", *(f"{y},{t},{x}" for t, x, y in rows)]
+    (tmp_path / "way.csv").write_text("\n".join(table), encoding="utf-8")
+    both = [
+        assur_cli("dynamics", "fivebar", "--motion", str(tmp_path / name), "--json").json
+        for name in ("way.toml", "way.csv")
+    ]
+    assert both[0]["actuator_forces"] == both[1]["actuator_forces"]
+    assert len(both[0]["t"]) == len(rows)
+    (tmp_path / "way.csv").write_text("time,x,y\n0,0,210\n", encoding="utf-8")
+    refused = assur_cli("dynamics", "fivebar", "--motion", str(tmp_path / "way.csv"))
+    assert refused.code == 2
+    assert "way.csv:1: columns time, x, y are not those of t and the pose" in refused.err
+
+
 @pytest.mark.parametrize(
     ("words", "said", "code"),
     [

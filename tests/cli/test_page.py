@@ -29,7 +29,7 @@ def test_json_counts_what_is_inside(assur_cli, tmp_path):
         "inside": None,
     }
     assert (inside["assembly_modes"], inside["working_modes"]) == (2, 4)
-    assert inside["layers"] == {"workspace": 1, "singular": 0, "section": 0}
+    assert inside["layers"] == {"workspace": 1, "singular": 0, "section": 0, "force": 2}
 
 
 def test_dimensions_are_those_given(assur_cli, tmp_path):

@@ -16,7 +16,8 @@ def dynamics(
     /,
     *,
     motion: Annotated[
-        str | None, Parameter(metavar="FILE", help="The motion, a .toml file with [harmonic], [samples] or [forces].")
+        str | None,
+        Parameter(metavar="FILE", help="A .toml file with [harmonic], [samples] or [forces], or samples as .csv."),
     ] = None,
     forward: Annotated[
         bool, Parameter(help="Let the mechanism run by the forces of the file, or by those that its motion asks for.")
@@ -44,7 +45,7 @@ def dynamics(
 
     The file has the pose in the mechanism's units: [harmonic] centre, amplitude,
     omega [rad/s], phase [rad] with pose = centre + amplitude sin(omega t + phase),
-    or [samples] t, pose. It is followed in one mode; where it leaves that, the
+    or [samples] t, pose; or a .csv with columns t, x, y, z. It is followed in one mode; where it leaves that, the
     workspace or the limits of the file it is refused, with the moment and the
     margin. Answers: peak and rms of each actuator and its share of the limits of
     force, speed and power. With --forward the equation of motion is integrated,
@@ -79,8 +80,14 @@ def dynamics(
         raise UsageError("--motion is missing", hint="--motion motion.toml, with [harmonic], [samples] or [forces]")
     from assur.cli import timed
     from assur.cli.paths import output_file
-    from assur.machine.dynamics.motion_file import read_motion
+    from assur.machine.dynamics.motion_file import MotionFile, read_motion
+    from assur.machine.dynamics.prescribed_motion import sampled
 
     path = output_file(output, ENDINGS) if output is not None else None
-    read = read_motion(record, Path(motion))
+    if motion.lower().endswith(".csv"):
+        from assur.cli.pose_table import timed_poses
+
+        read = MotionFile(sampled(record, *timed_poses(record, motion)), None)
+    else:
+        read = read_motion(record, Path(motion))
     return timed.outcome(record, read, mode, acting, forward=forward, use_limits=not no_limits, path=path)

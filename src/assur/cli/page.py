@@ -100,7 +100,7 @@ def _inside(scene: Mapping[str, Any]) -> PageContent:
         assembly_modes=len(scene["branches"]["assembly"]),
         working_modes=len(scene["branches"]["working"]),
         layers_note=scene["layersNote"],
-        layers=PageLayers(kinds["workspace"], kinds["singular"], kinds["section"]),
+        layers=PageLayers(kinds["workspace"], kinds["singular"], kinds["section"], kinds["force"]),
         factors=len(scene["factors"]),
         facts=len(scene["facts"]),
         errata=len(scene["errata"]),
@@ -117,7 +117,7 @@ def _lines(inside: PageContent) -> list[str]:
         f"{count(inside.links, 'link')}, {count(inside.joints, 'joint')}, {count(inside.loops, 'loop')}",
         f"sliders: {', '.join(inside.inputs)}; {', '.join(inside.pose)}",
         f"ghosts: {', '.join(modes)} at home",
-        f"layers: {layers.workspace} workspace, {layers.singular} singular, {sections}",
+        f"layers: {layers.workspace} workspace, {layers.singular} singular, {sections}, {layers.force} of forces",
         *([inside.layers_note] if inside.layers_note else []),
         f"{count(inside.facts, 'fact')} of the topology, {errata} of the source",
     ]

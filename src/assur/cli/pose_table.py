@@ -22,12 +22,28 @@ def pose_table(record: Mechanism, path: str) -> NDArray[np.float64]:
     Errors:
         UsageError: columns that are not the pose's, and what `table` refuses.
     """
+    return _poses(record, path, ())[1]
+
+
+def timed_poses(record: Mechanism, path: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times (N,) in s, of a column `t`, and poses (N, m) as of `pose_table`."""
+    times, poses = _poses(record, path, ("t",))
+    return times[:, 0], poses
+
+
+def _poses(record: Mechanism, path: str, others: tuple[str, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Other columns (N, k) of a table, and poses (N, m)."""
     names, rows = table(path)
-    if sorted(names) != sorted(record.platform.pose):
-        hint = f"the first line: {','.join(record.platform.pose)}"
-        raise UsageError(f"{path}:1: columns {', '.join(names) or 'none'} are not those of the pose", hint=hint)
+    wanted = (*others, *record.platform.pose)
+    if sorted(names) != sorted(wanted):
+        told = " and ".join([*others, "the pose"])
+        raise UsageError(
+            f"{path}:1: columns {', '.join(names) or 'none'} are not those of {told}",
+            hint=f"the first line: {','.join(wanted)}",
+        )
     order = [names.index(name) for name in record.platform.pose]
-    return np.array([pose_from_border(record, row[order]) for row in rows])
+    poses = np.array([pose_from_border(record, row[order]) for row in rows])
+    return rows[:, [names.index(name) for name in others]], poses
 
 
 def measurements(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
@@ -14,10 +12,8 @@ from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, INK, PAPER, RED, SMALL
-from assur.kinematics.status import Status
-from assur.machine.forces.actuator_forces import forces_at
-from assur.machine.forces.loads import load_of
-from assur.machine.forces.reactions import JointReaction, reactions
+from assur.machine.forces.forces_at_rest import ForcesAtRest, forces_at_rest
+from assur.machine.forces.reactions import JointReaction
 from assur.machine.masses.link_masses import masses
 from assur.scene.camera import oblique, orthographic
 from assur.scene.skeleton import Skeleton
@@ -31,40 +27,15 @@ DISC = 8.0
 """Points across the hatching."""
 
 
-@dataclass(frozen=True, eq=False)
-class JointForces:
-    """What each joint's parent exerts on its child at rest under gravity, in N; none where nothing holds the platform.
-
-    `stresses` balance themselves, so that rigid links leave them open.
-    """
-
-    status: str
-    joints: tuple[JointReaction, ...]
-    stresses: int
-
-    @property
-    def largest(self) -> float:
-        """Of all forces."""
-        return max((float(np.linalg.norm(item.force)) for item in self.joints), default=0.0)
-
-
 def no_masses(context: Context) -> str:
     """Why a mechanism has no figures of forces; empty where it has."""
     lacking = masses(context.record).lacking
     return f"the mechanism's file says no mass of {', '.join(lacking)}" if lacking else ""
 
 
-def joint_forces(context: Context) -> JointForces:
+def joint_forces(context: Context) -> ForcesAtRest:
     """Those in the configuration that is drawn, worked out once."""
-
-    def made() -> JointForces:
-        answer = forces_at(context.record, context.drawn_joints[None], load_of(None))
-        if np.isnan(answer.forces).any():
-            return JointForces(Status(int(answer.status[0])).name, (), 0)
-        passed = reactions(answer)
-        return JointForces(Status(int(answer.status[0])).name, passed.joints, passed.redundancy)
-
-    return context.kept("joint forces", made)
+    return context.kept("joint forces", lambda: forces_at_rest(context.record, context.drawn_joints))
 
 
 def _caption(context: Context) -> str:
@@ -125,7 +96,7 @@ def _draw_force(
         page.arrow(start, end, RED, 1.1, 12.0, head=7.0, linestyle="-" if sure else (0, (2.5, 1.5)))
 
 
-def _data(context: Context, passed: JointForces) -> dict[str, object]:
+def _data(context: Context, passed: ForcesAtRest) -> dict[str, object]:
     return {
         "status": passed.status,
         "stresses": passed.stresses,

@@ -11,8 +11,10 @@ import jinja2
 from markupsafe import Markup
 
 import assur
+from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.page.content import content
+from assur.page.force_layers import force_layers
 from assur.results.json_text import json_text
 from assur.scene.layers import layers, layers_note, region
 from assur.work import Progress
@@ -45,7 +47,9 @@ def scene(
     Errors: UsageError or MechanismFileError where the mechanism has no home; UsageError for a resolution that is none.
     """
     found = region(record, resolution=resolution, tick=progress)
-    return content(record, layers(record, found), layers_note(record, found))
+    return content(
+        record, (*layers(record, found), *force_layers(record, home_values(record))), layers_note(record, found)
+    )
 
 
 def page_html(content: Mapping[str, Any]) -> str:

@@ -12,6 +12,7 @@ import threading
 from typing import Any
 
 from assur.model.mechanism import MechanismRecord
+from assur.page.force_layers import force_layers
 from assur.scene.layers import Layer, layers, layers_note, region, section_layer
 from assur.view.dials import Dial
 from assur.view.host import Host
@@ -21,6 +22,7 @@ COMPUTE, CANCEL = "compute workspace and singular surfaces", "cancel"
 IN_SPACE = 3
 """Coordinates of a workspace that has sections with an area."""
 
+SMALL = '<small style="display:block;padding:0 8px">{}</small>'
 LAST = 1e12
 """Place of what stands at the end of a folder, whatever is added to it later."""
 
@@ -30,7 +32,7 @@ class CancelledError(Exception):
 
 
 class Overlays:
-    """A button, a box for each layer that was found, the height of a section, and a note on what is seen."""
+    """A button, boxes for forces and for each layer that was found, the height of a section, notes on what is seen."""
 
     def __init__(self, window: Host) -> None:
         self.window = window
@@ -41,7 +43,12 @@ class Overlays:
             self.button = window.gui.add_button(COMPUTE)
             self.progress = window.gui.add_progress_bar(0.0, visible=False)
             self.note = window.gui.add_html("", visible=False, order=LAST)
+            self.forces = window.gui.add_checkbox(
+                "forces at rest", initial_value=False, hint="what joints pass and actuators exert under gravity, here"
+            )
+            self.told = window.gui.add_html("", visible=False)
         self.button.on_click(lambda _: self._pressed())
+        self.forces.on_update(lambda _: window.worker.ask("forces", self.show_forces))
 
     def compute(self) -> None:
         """Find every layer of the working mode that is shown."""
@@ -64,6 +71,17 @@ class Overlays:
             self.window.failed(error)
         else:  # by the worker, which changes dimensions too
             self.window.worker.ask("layers", lambda: self._show(request, snapshot.record, workspace, made))
+
+    def show_forces(self) -> None:
+        """Arrows where the mechanism stands, if they are asked for; what they are, or why there are none."""
+        snapshot = self.window.snapshot
+        made = force_layers(snapshot.record, snapshot.values, "here") if self.forces.value else ()
+        self.window.stage.forces(made)
+        lines = [f'<span style="color:{layer.colour}">{html.escape(layer.label)}</span>' for layer in made]
+        self.told.visible = bool(self.forces.value)
+        self.told.content = SMALL.format(
+            "<br>".join(lines) or "no masses are stated, or nothing holds the platform here"
+        )
 
     def clear(self) -> None:
         """Forget the layers, and what is being computed."""
@@ -136,5 +154,5 @@ class Overlays:
         self._say(layer.label if layer else f"nothing is reached at {name} = {value:g} {record.unit}")
 
     def _say(self, text: str) -> None:
-        self.note.content = f'<small style="display:block;padding:0 8px">{html.escape(text)}</small>'
+        self.note.content = SMALL.format(html.escape(text))
         self.note.visible = bool(text)

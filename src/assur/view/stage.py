@@ -29,6 +29,9 @@ STEADY = (1.0, -1.25, 0.75)
 OPENING = math.radians(45.0)
 """Angle between the lower and the upper edge of the picture."""
 
+THROUGH = 0.45
+"""How opaque links are in which arrows of forces are seen."""
+
 ROOM, NARROW = 0.92, 0.8
 """Share of a picture that the mechanism takes at most when it is seen first, and how wide that is for its height.
 
@@ -47,6 +50,8 @@ class Stage:
         self._layers: list[Any] = []
         self._letters: list[Any] = []
         self._section: Any = None
+        self._solids: list[Any] = []
+        self._forces: list[Any] = []
         self.scene.set_up_direction("+z")
         self._light()
         server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
@@ -76,9 +81,10 @@ class Stage:
             for link in record.links:
                 self._frames[link] = self.scene.add_frame(f"/now/{link}", show_axes=False)
             for k, solid in enumerate(drawn.solids):
-                self.scene.add_mesh_simple(
+                node = self.scene.add_mesh_simple(
                     f"/now/{solid.link}/solid{k}", solid.vertices, solid.faces, color=solid.colour
                 )
+                self._solids.append(node)
             for k, letter in enumerate(drawn.letters):
                 node = self.scene.add_label(
                     f"/now/{letter.link}/letter{k}", letter.name, position=letter.at, anchor="bottom-left"
@@ -139,6 +145,14 @@ class Stage:
             self._section.remove()
         self._section = None if layer is None else self._layer("section", layer, visible=True)
 
+    def forces(self, layers: Sequence[Layer]) -> None:
+        """Arrows of forces in the place of the last ones, seen through the links; or none."""
+        for node in self._forces:
+            node.remove()
+        self._forces = [self._layer(f"force{k}", layer, visible=True) for k, layer in enumerate(layers)]
+        for node in self._solids:
+            node.opacity = THROUGH if layers else None
+
     def show_letters(self, visible: bool) -> None:
         """Letters, or none."""
         for node in self._letters:
@@ -177,6 +191,8 @@ class Stage:
         for node in (*(node for _, node in self._ghosts), *self._layers, *self._frames.values()):
             node.remove()
         self.section(None)
+        self._solids = []
+        self.forces(())
         self._ghosts, self._layers, self._letters = [], [], []
         self._frames = {}
 

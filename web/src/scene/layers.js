@@ -1,4 +1,4 @@
-/** Layers in the base frame: workspace, singular surfaces, sections' outlines, unpacked from small integers. */
+/** Layers in the base frame: workspace, singular surfaces, sections' outlines, and forces over all, unpacked from small integers. */
 
 import {
   BufferAttribute,
@@ -29,9 +29,9 @@ export function layerOf(layer) {
   geometry.setAttribute("position", new BufferAttribute(positions(layer), 3));
   const faces = bytes(layer.faces);
   geometry.setIndex(new BufferAttribute(layer.wide ? new Uint32Array(faces) : new Uint16Array(faces), 1));
-  const { colour: color, opacity } = layer;
+  const { colour: color, opacity, kind } = layer;
   if (layer.primitive === "segments") return new LineSegments(geometry, new LineBasicMaterial({ color }));
   geometry.computeVertexNormals();
-  const look = { color, transparent: true, opacity, side: DoubleSide, depthWrite: false };
+  const look = { color, transparent: true, opacity, side: DoubleSide, depthWrite: false, depthTest: kind !== "force" };
   return Object.assign(new Mesh(geometry, new MeshLambertMaterial(look)), { renderOrder: 4 });
 }

@@ -8,9 +8,10 @@ import numpy as np
 
 from assur.errors import UsageError
 from assur.figures.force_polytope import FORCE_POLYTOPE, held
-from assur.figures.joint_forces import JointForces, joint_forces
+from assur.figures.joint_forces import joint_forces
 from assur.kinematics.status import Status
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
+from assur.machine.forces.forces_at_rest import ForcesAtRest
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.utilisation import stated
 from assur.machine.masses.link_masses import all_masses
@@ -90,7 +91,7 @@ def _capacity(findings: Findings) -> Iterator[Scalar]:
         yield Scalar("force that is held in every direction", own.sphere, "N", FLOATING, note=note)
 
 
-def _joints(passed: JointForces) -> Table:
+def _joints(passed: ForcesAtRest) -> Table:
     rows = tuple(
         (
             item.joint,

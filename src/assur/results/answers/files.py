@@ -18,6 +18,7 @@ class PageLayers:
     workspace: int
     singular: int
     section: int
+    force: int
 
 
 @dataclass(frozen=True)
