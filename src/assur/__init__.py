@@ -46,8 +46,8 @@ if not TYPE_CHECKING:  # so that a type checker still refuses an unknown name
 
 
 def __dir__() -> list[str]:
-    """Names that tab completion offers."""
-    return sorted({*globals(), *__all__})
+    """Names that tab completion offers: what is public, with the function and package `topology`."""
+    return sorted({*__all__, "topology", "__version__", "__doc__", "__all__"})
 
 
 class _CallablePackage(ModuleType):

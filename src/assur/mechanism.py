@@ -1,12 +1,14 @@
 """`Mechanism`: a record with its analyses as methods, each one line to the function that does the work.
 
 An analysis is imported where it is called, but for the position problem: a command loads what it prints and no more.
+What draws and writes stands above this module, and is looked up by its name when it is asked for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -22,8 +24,11 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import Method
 from assur.model import registry
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, is_angle
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from assur.kinematics.certified.certify import Way as ProofWay
     from assur.kinematics.certified.result import CertifiedSolutions
     from assur.kinematics.following.path import Path as Way
@@ -208,6 +213,64 @@ class Mechanism(MechanismRecord):
         from assur.joint_graph.points import point
 
         return point(self, name, joint_array(self, joint_values))
+
+    def plot(self, figure: str = "solid", *, width: str = "") -> Figure:
+        """A figure of `assur figures` as matplotlib's, at the width of a page; see `assur.figures.catalogue`.
+
+        >>> (25.4 * load("fivebar").plot("flow", width="ieee").get_size_inches()).round().tolist()
+        [44.0, 91.0]
+        """
+        page = import_module("assur.figures.page").page_width(width)
+        context = import_module("assur.figures.context").Context(self, page=page)
+        drawn: Figure = import_module("assur.figures.catalogue").draw(self, figure, context)
+        return drawn
+
+    def page(self, path: str | Path) -> Path:
+        """Write the page in which the mechanism can be moved, one HTML file, and return its path.
+
+        >>> import tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     load("fivebar").page(Path(folder) / "fivebar.html").name
+        'fivebar.html'
+        """
+        pages = import_module("assur.page")
+        written: Path = import_module("assur.results.files").write_whole(path, pages.page_html(pages.scene(self)))
+        return written
+
+    def report(self, path: str | Path, *, figures: bool = True) -> Path:
+        """Write everything about the mechanism as one HTML file and return its path; see `assur.report.report`."""
+        import_module("assur.report.report").write_report(self, path, figures=figures)
+        return Path(path)
+
+    def __str__(self) -> str:
+        """Its inputs, pose and dimensions as a table."""
+        from assur.results.notebook import text_table
+
+        return text_table(f"{self.name}: {self.title}", *self._table())
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook, with its structure as a picture."""
+        from assur.results.notebook import html_table
+
+        picture = import_module("assur.figures.encode").encoded(self.plot("structure"), "png", 110)
+        return html_table(f"{self.name}: {self.title}", *self._table(), picture)
+
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[object, ...]]]:
+        """Columns and rows of what is given and asked of it."""
+        units = {"length": self.unit, "angle": self.angle}
+        kinds = {
+            name: "length" if name in LENGTHS else "angle" if is_angle(name) else "" for name in self.platform.pose
+        }
+        driven = {item.name: item.coordinate for item in self.inputs}
+        rows: list[tuple[object, ...]] = [
+            ("input", name, "", units[at.kind], f"{at.kind} of joint {at.joint}") for name, at in driven.items()
+        ]
+        rows += [("pose", name, "", units.get(kind, ""), "") for name, kind in kinds.items()]
+        rows += [
+            ("dimension", name, f"{item.value:g}", "" if item.unit == "1" else item.unit, item.meaning)
+            for name, item in self.parameters.items()
+        ]
+        return ("what", "name", "value", "unit", "meaning"), rows
 
     @property
     def home_values(self) -> FloatArray:

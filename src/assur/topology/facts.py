@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, Literal
 
 from assur.results.plain_text import signed
@@ -154,6 +155,16 @@ class Topology:
         degrees = sorted({part.coupling_degree for part in self.determining if part.coupling_degree is not None})
         listed = ", ".join(str(degree) for degree in degrees)
         return f"coupling degree {listed} of the inputs that determine it" if degrees else "no coupling degree"
+
+    def _repr_html_(self) -> str:
+        """For a notebook: the table of characteristics, and the graph as a picture."""
+        from assur.results.notebook import html_table
+
+        rows = import_module("assur.topology.characteristics").characteristics(self)
+        graph, encode, style = (import_module(f"assur.figures.{name}") for name in ("graph", "encode", "style"))
+        with style.styled():
+            drawn = graph.graph_drawing(self.linkage, self.loops, self.assur_chains).figure
+        return html_table(self.name, ("characteristic", "value"), rows, encode.encoded(drawn, "png", 110))
 
     @property
     def is_shaky(self) -> bool:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import BatchError
+from assur.errors import BatchError, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.answers.excess import beyond, excesses, open_loop, within
@@ -124,6 +125,51 @@ class SolutionSet(ABC):
     def __repr__(self) -> str:
         size = f"batch {self.batch_shape}, {self.candidates} branches"
         return f"<{self.problem} solutions of {self.record.name}: {size}>"
+
+    def rows(self) -> list[dict[str, object]]:
+        """The listed solutions of a batch of one, each with its numbers in the file's units, mode, status and gap.
+
+        >>> import assur
+        >>> [row["mode"] for row in assur.load("fivebar").direct([1.0, 1.0]).rows()]
+        ['+', '-']
+        """
+        from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
+
+        record = self.record
+        names = [own.name for own in record.drives]
+        return [
+            {
+                **dict(zip(record.platform.pose, pose_at_border(record, item.pose).tolist(), strict=True)),
+                **dict(zip(names, inputs_at_border(record, item.inputs).tolist(), strict=True)),
+                "mode": item.mode,
+                "status": item.status.name,
+                "gap": item.residual,
+            }
+            for item in self
+        ]
+
+    def to_dataframe(self) -> Any:
+        """The rows as a `pandas.DataFrame`.
+
+        Errors:
+            UsageError: pandas is not installed.
+        """
+        try:
+            pandas = import_module("pandas")
+        except ImportError:
+            raise UsageError("a data frame needs pandas, which is not installed", hint="pip install pandas") from None
+        return pandas.DataFrame(self.rows())
+
+    def _repr_html_(self) -> str:
+        """For a notebook: the solutions as a table; of a batch its size."""
+        from assur.results.notebook import html_table
+
+        if self.batch_shape:
+            return html_table(repr(self), (), ())
+        rows = self.rows()
+        shown = [[f"{cell:.6g}" if isinstance(cell, float) else cell for cell in row.values()] for row in rows]
+        title = f"{len(rows)} {self.problem} solutions of {self.record.name}: {self.right}"
+        return html_table(title, list(rows[0]) if rows else (), shown)
 
     @property
     def candidates(self) -> int:
