@@ -44,6 +44,12 @@ def test_what_has_no_formulas_is_told(name, said):
         motion_formulas(load_record(name))
 
 
+def test_without_a_closed_form_it_is_told_what_would_derive_one():
+    with pytest.raises(UsageError, match="no formulas of motion without a closed form") as refused:
+        motion_formulas(replace(load_record("fivebar"), closed_form=None))
+    assert "assur derive" in refused.value.hint
+
+
 def test_a_file_without_a_box_is_told_to_have_one():
     record = replace(load_record("fivebar"), box={})
     with pytest.raises(UsageError, match="no box of x, y"):

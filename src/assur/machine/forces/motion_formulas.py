@@ -135,7 +135,9 @@ def difference(formulas: MotionFormulas) -> float:
 
 def _refuse(record: MechanismRecord) -> None:
     name, pivots = record.name, graph_pivots(record)
-    closed_form_of(record)
+    if record.closed_form is None:
+        hint = "assur derive M -o closed_form.py, where there is one"
+        raise UsageError(f"{name}: no formulas of motion without a closed form", hint=hint)
     all_masses(record)
     if lacking := [own for own in record.platform.pose if own not in record.box]:
         raise UsageError(f"{name}: no box of {', '.join(lacking)} to compare numbers in", hint="say it in [workspace]")
