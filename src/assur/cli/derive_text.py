@@ -9,7 +9,10 @@ from rich.padding import Padding
 
 from assur.cli.output import Verbatim, heading
 from assur.results.answers.answer import ABSENT
-from assur.results.answers.derivation import DerivationAnswer, DerivedProblem
+from assur.results.answers.derivation import DerivationAnswer, DerivedFactor, DerivedProblem
+
+LONG = 1200
+"""Letters of a factor's formula that are printed; --json has all."""
 
 
 def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
@@ -46,7 +49,7 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     ):
         yield from [said] if factors else []
         for factor in factors:
-            yield Verbatim(f"    {factor.name} = {factor.formula}")
+            yield Verbatim(f"    {factor.name} = {_formula(factor, factors)}")
             yield _meaning(f"{factor.name} = 0: {factor.meaning}")
     yield from [""] if data.factors else []
     if data.not_written is not ABSENT:
@@ -55,6 +58,15 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"
+
+
+def _formula(factor: DerivedFactor, factors: Iterable[DerivedFactor]) -> str:
+    """That of a factor, or what it is of its determinant where that is too long to be read."""
+    others = [own.name for own in factors if own.kind == factor.kind and own is not factor]
+    if len(factor.formula) <= LONG or factor.kind == "constraint":
+        return factor.formula
+    name = "det Jp" if factor.kind == "parallel" else "det Jq"
+    return f"{name}/({'*'.join(others)})" if others else name
 
 
 def _meaning(text: str) -> Padding:

@@ -76,6 +76,7 @@ class PairEliminant(AngleEliminant):
             cosine and the sine of the last, and beside.
         across: Cramer's determinant and what stands over it, in the same way.
         conic: coefficients in the last circle: 1, cosine, sine, their product, square of the sine.
+        meeting: the last steps, of line, conic and circle.
     """
 
     pair: CirclePair | None = None
@@ -84,6 +85,7 @@ class PairEliminant(AngleEliminant):
     both: tuple[Triple, ...] = ()
     across: tuple[Triple, ...] = ()
     conic: tuple[sympy.Expr, ...] = ()
+    meeting: tuple[Definition, ...] = ()
 
     @property
     def named_lines(self) -> tuple[Form, ...]:
@@ -159,6 +161,8 @@ class _Elimination:
         across = self._across(first, both)
         conic = self._conic(*across)
         meeting = line_and_conic().at(last, conic, third)
+        steps = [Definition(self.names.numbered("h"), own) for own in meeting.steps]
+        meeting = line_and_conic().at(last, conic, third, [own.symbol for own in steps])
         under = Definition(self.names.named("v"), meeting.under)
         over = [Definition(self.names.numbered("v"), own) for own in meeting.over]
         places = [own.symbol for own in (*over, under)]
@@ -166,11 +170,11 @@ class _Elimination:
         for name, row in zip(("det", "m", "n"), across, strict=True):
             formula = sum((share * place for share, place in zip(row, places, strict=True)), ZERO)
             backward.append(Definition(self.names.named(name), formula))
-        self.steps.append(Definition(self.names.named("elim"), meeting.eliminant))
+        self.steps += [*steps, Definition(self.names.named("elim"), meeting.eliminant)]
         return PairEliminant(
             self.pair.base, tuple(self.known.values()), tuple(self.entries.values()), tuple(self.steps),
             self.pair.unknowns, divisors=(backward[0].symbol, backward[3].symbol), backward=tuple(backward),
-            pair=self.pair, first=first, last=last, both=both, across=across, conic=conic,
+            pair=self.pair, first=first, last=last, both=both, across=across, conic=conic, meeting=tuple(steps),
         )  # fmt: skip
 
     def _entry(self, formula: sympy.Expr) -> sympy.Expr:

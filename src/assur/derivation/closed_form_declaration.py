@@ -72,6 +72,8 @@ class ClosedFormDeclaration(ClosedFormParts):
         if self.formulas.inverse.symbols.record.generalised or self.formulas.joints.pointings:
             yield "parallelograms stay such, and what they keep from turning is not turned over"
         reasons = (own for part in (self.formulas.direct, self.formulas.inverse) for own in part.placed.reasons)
+        if self.formulas.one_sided:
+            yield "a leg of negative length is left out: the same pose with that leg turned half round"
         if any(own.other_way is not None for own in reasons):
             yield "links that axes along three directions keep from turning stand as at home"
 
@@ -104,7 +106,7 @@ class ClosedFormDeclaration(ClosedFormParts):
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
             meaning = meaning if len(meaning) <= LONGEST_TEXT else name
             kind = 'zero="degenerate"'
-            if value in roots:
+            if value in roots and (problem == "direct" or self.formulas.signs[problem, roots[value].symbol][0]):
                 kind = f"signs={self.formulas.merging(problem, roots[value].symbol)!r}"
             elif (rod := self.formulas.joints.leaning.get(value)) is not None and value == rod.room:
                 kind = "signs=()"

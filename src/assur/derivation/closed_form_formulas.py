@@ -9,9 +9,11 @@ from typing import Any
 
 import sympy
 
+from assur.derivation.circle_pairs import PairEliminant
+from assur.derivation.direct_pose import direct_rest, of_triangle, turned_by, upright
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
-from assur.derivation.linear import tidy
+from assur.derivation.linear import ONE, tidy
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
@@ -19,11 +21,11 @@ from assur.derivation.symbols import circle_of
 from assur.derivation.three_quadrics import ThreeQuadrics, three_quadrics
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.velocities import VelocityEquations, velocity_equations
-from assur.joints.steps import about
 from assur.kinematics.modes import Problem
-from assur.model.pose import ANGLES, LENGTHS
-from assur.numerics.vectors import dot, product, transposed
+from assur.model.pose import ANGLES
+from assur.numerics.vectors import dot
 
+ZERO = sympy.Integer(0)
 LENIENT = 2
 """So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
 APART = sympy.Symbol("apart", real=True)
@@ -128,54 +130,32 @@ class ClosedFormFormulas:
 
     def rest(self, problem: Problem) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
         """What the core asks for and the problem's own formulas do not say."""
-        if problem == "inverse":
-            return
-        record = self.direct.symbols.record
-        known = {own.symbol for own in self.direct.definitions}
-        lengths = self.inverse.loops.lengths
-        for index, symbol in lengths.items():
-            if index in self.direct.symbols.locked:
-                yield symbol, self.direct.symbols.locked[index]
-        for direction in self.inverse.loops.directions:
-            if direction.kind == "circle" and not known & {*direction.unknowns}:
-                yield from zip(direction.unknowns, self._turn_in_direct(direction), strict=True)
-        named = dict(zip(LENGTHS, self.direct.point, strict=True))
-        for name in record.platform.pose:
-            if name in named:
-                yield _real(name), named[name]
-            else:
-                yield from zip(circle_of(name), self._turned_by(name), strict=True)
-
-    def _turn_in_direct(self, direction: UnknownDirection) -> tuple[sympy.Expr, sympy.Expr]:
-        """Cosine and sine of a circle of the inverse problem, in what the direct one knows. Errors: NotDerivedError."""
-        link = direction.links[0]
-        own, other = self.inverse.placed.links[link], self.direct.placed.links[link]
-        if own.axis is None or other.rod is not None:
-            raise NotDerivedError(f"the angle of {link} in the direct problem")
-        rotation = other.constant
-        if other.axis is not None:
-            circle = next(item for item in self.direct.loops.directions if link in item.links)
-            rotation = product(about(other.axis, *circle.unknowns), rotation)
-        turned = product(rotation, transposed(own.constant))
-        cosine = (sum(turned[k][k] for k in range(3)) - 1) / sympy.Integer(2)
-        across = (turned[2][1] - turned[1][2], turned[0][2] - turned[2][0], turned[1][0] - turned[0][1])
-        return sympy.simplify(cosine), sympy.simplify(dot(own.axis, across) / sympy.Integer(2))
-
-    def _turned_by(self, name: str) -> tuple[sympy.Expr, sympy.Expr]:
-        """Cosine and sine of an angle of the pose."""
-        own = self.direct.placed.links[self.direct.symbols.record.platform.link]
-        if name != "phi" or own.axis is None or tuple(own.axis) != (0, 0, 1) or own.rod is not None:
-            raise NotDerivedError(f"the platform's {name}")
-        for direction in self.direct.loops.directions:
-            if self.direct.symbols.record.platform.link in direction.links:
-                return direction.unknowns[0], direction.unknowns[1]
-        raise NotDerivedError(f"the platform's {name}")
+        if problem == "direct":
+            yield from direct_rest(self.direct, self.inverse)
 
     @cached_property
     def three_quadrics(self) -> ThreeQuadrics | None:
         """Those of the set with a polynomial of the direct problem, where it leaves three."""
         part = next((part for part in self.direct.sets if part.eliminant is not None), None)
         return None if part is None else three_quadrics(part, self.direct.symbols.witness)
+
+    @cached_property
+    def three_circles(self) -> tuple[UnknownDirection, ...]:
+        """Those that a polynomial of the direct problem is left of, where they carry the balls of one link."""
+        own = self.direct.eliminant
+        return (own.direction, *own.pair.circles) if isinstance(own, PairEliminant) and own.pair is not None else ()
+
+    @property
+    def sides(self) -> list[Any]:
+        """The square of each side between such balls, and its parts: beside, and of each circle."""
+        own = self.direct.eliminant
+        values = own.pair.values if isinstance(own, PairEliminant) and own.pair is not None else {}
+        forms = ([values[unknown] for unknown in side.unknowns] for side in self.direct.loops.directions
+                 if side.kind == "side")  # fmt: skip
+        squares = (side.square for side in self.direct.loops.directions if side.kind == "side")
+        parts = [[(form.get(ONE, ZERO), [tuple(form.get(unknown, ZERO) for unknown in circle.unknowns)
+                 for circle in self.three_circles]) for form in side] for side in forms]  # fmt: skip
+        return [*zip(squares, parts, strict=True)]
 
     def margins(self, problem: Problem) -> Iterator[tuple[str, sympy.Expr]]:
         """Names and formulas of what must not vanish, and of radicands."""
@@ -189,6 +169,8 @@ class ClosedFormFormulas:
                 yield APART.name, APART
             for root in part.roots:
                 yield root.radicand.name, root.radicand
+        if of_triangle(self.direct):
+            yield from upright(problem)
         for tilt in self.joints.tilts:
             yield f"upright_{tilt.name.removeprefix('tilt_')}", 1 + dot(tilt.line, tilt.direction)
         for value, own in self.joints.leaning.items():
@@ -226,6 +208,11 @@ class ClosedFormFormulas:
         """What the sign of a root is multiplied with."""
         return self.products.get((problem, root), SignProduct())
 
+    @property
+    def one_sided(self) -> bool:
+        """Whether legs keep the sign of their length at home."""
+        return any(not name for name, _ in self.signs.values())
+
     def merging(self, problem: Problem, root: sympy.Symbol) -> tuple[str, ...]:
         """The signs that change where a root vanishes: those of whose products it is one factor."""
         return tuple(name for name, roots in self._named_roots(problem).items() if root in roots)
@@ -235,6 +222,7 @@ class ClosedFormFormulas:
         names = {
             root.symbol: {self.signs[problem, root.symbol][0], *self.sign_product(problem, root.symbol).names}
             for root in self.solution(problem).roots
+            if self.signs[problem, root.symbol][0]
         }
         made = {symbol: {symbol} for symbol in names}
         pivots: dict[str, sympy.Symbol] = {}
@@ -270,15 +258,16 @@ class ClosedFormFormulas:
     def inputs_in_unknowns(self) -> dict[sympy.Symbol, sympy.Expr]:
         """Symbols of the direct problem's inputs as formulas of the inverse problem's unknowns."""
         pairs = zip(self.printed_inputs, self.input_pairs, strict=True)
-        posed = (name for name in self.direct.symbols.record.platform.pose if name in ANGLES)
+        posed = [name for name in self.direct.symbols.record.platform.pose if name in ANGLES]
+        if of_triangle(self.direct):
+            posed = []
         values: dict[sympy.Symbol, sympy.Expr] = {}
         for name in posed:
-            values |= dict(zip(self._turned_by(name), circle_of(name), strict=True))
+            values |= dict(zip(turned_by(self.direct, name), circle_of(name), strict=True))
         for printed, own in pairs:
             values |= dict(zip(printed, own, strict=True)) if isinstance(printed, tuple) else {printed: own}
-        for name in self.direct.symbols.record.platform.pose:
-            if name in ANGLES:  # of the platform's own angle
-                values |= dict(zip(self._turned_by(name), circle_of(name), strict=True))
+        for name in posed:  # of the platform's own angle
+            values |= dict(zip(turned_by(self.direct, name), circle_of(name), strict=True))
         return {symbol: own for symbol, own in values.items() if symbol not in self.unknowns}
 
     @cached_property

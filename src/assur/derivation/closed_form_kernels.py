@@ -48,7 +48,7 @@ class ClosedFormKernels(ClosedFormParts):
             parts = self._polynomial(self.eliminant) if three is None else self._in_space(three, self.eliminant)
             return "\n\n".join(part.strip("\n") + "\n" for part in parts)
         solution = self.formulas.solution(problem)
-        names = [self.formulas.signs[problem, root.symbol][0] for root in solution.roots]
+        names = [name for root in solution.roots if (name := self.formulas.signs[problem, root.symbol][0])]
         title = "Pose at given inputs" if problem == "direct" else "Inputs at a pose"
         given = "inputs" if problem == "direct" else "pose"
         lines = [f"def {problem}(ns, p, {given}, sign):"]
@@ -84,7 +84,14 @@ class ClosedFormKernels(ClosedFormParts):
         lines.append(f'    """The pose at a root, cosine and sine of {self.unknown}."""')
         lines += self._given("direct")
         lines.append(f"    {cosine}, {sine} = root")
-        lines += self._lines("direct", solution.definitions)
+        circles, last = self.formulas.three_circles, 0
+        if circles:
+            names = {unknown for own in circles for unknown in own.unknowns}
+            last = max(k for k, own in enumerate(solution.definitions, start=1) if own.symbol in names)
+            lines += self._lines("direct", solution.definitions[:last])
+            pairs = self.pair_text([own.unknowns for own in circles])
+            lines.append(f"    {pairs} = nearer_angles({self.pair_text(self.formulas.sides)}, {pairs})")
+        lines += self._lines("direct", solution.definitions[last:])
         yield "\n".join([*lines, *self._branch("direct")])
 
     @property
@@ -186,7 +193,7 @@ class ClosedFormKernels(ClosedFormParts):
             if product.divisors:  # whose signs the root has too
                 whole = sympy.prod(product.divisors)
                 text = self.printer.doprint(whole * sympy.sqrt(roots[own.symbol].radicand / whole**2))
-            names = "".join(f"{sign_text(other)} * " for other in (name, *product.names))
+            names = "".join(f"{sign_text(other)} * " for other in (name, *product.names) if other)
             text = f"{'-' if sense < 0 else ''}{names}{text}"
         return f"    {own.symbol.name} = {text}"
 
@@ -199,7 +206,7 @@ class ClosedFormKernels(ClosedFormParts):
         """A tuple of formulas, or of names, as text."""
 
         def one(value: Any) -> str:
-            if isinstance(value, tuple):
+            if isinstance(value, tuple | list):
                 return f"({', '.join(map(one, value))})"
             return self.printer.doprint(value) if calls else str(value)
 

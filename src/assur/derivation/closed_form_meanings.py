@@ -9,10 +9,12 @@ import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.definitions import Definition
+from assur.derivation.direct_pose import TILT, UPRIGHT
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.joint_formulas import Tilt
 from assur.derivation.linear import tidy
+from assur.derivation.parasitic_rate import RIGHT_ANGLE
 from assur.derivation.phrases import GeometricPhrase, NamedDirection, phrase
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.kinematics.modes import Problem
@@ -67,6 +69,8 @@ class ClosedFormMeanings:
             direction = next(own for own in lines.loops.directions if own.name == rod.name)
             text = "{} points too far along {}" if value == rod.room else "{} points along {}"
             return phrase(text, lines.name(direction), NamedDirection(rod.axis))
+        if value in (TILT, UPRIGHT):
+            return phrase(RIGHT_ANGLE)
         return self._upright(next(tilt for tilt in self.formulas.joints.tilts if name.endswith(tilt.name[5:])))
 
     def _upright(self, tilt: Tilt) -> GeometricPhrase:

@@ -50,6 +50,8 @@ class ClosedFormText(ClosedFormKernels):
                 if three is None
                 else "from assur.numerics.resultants import ASKEW, eliminant, nearer, other_two, sum_of_squares"
             )
+        if self.formulas.three_circles:
+            imports.append("from assur.numerics.resultants import nearer_angles")
         if any(own.lean == 0 for own in self.formulas.joints.pointings):
             imports.append("from assur.numerics.legs import pointing")
         used = {

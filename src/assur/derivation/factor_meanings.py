@@ -18,6 +18,7 @@ import sympy
 from assur.derivation.hinges import point_on
 from assur.derivation.linear import never_zero
 from assur.derivation.link_lines import LinkLine, LinkLines
+from assur.derivation.parasitic_rate import RIGHT_ANGLE, UNSAID, parasitic_circle
 from assur.derivation.phrases import (
     GeometricPhrase,
     NamedDirection,
@@ -28,6 +29,7 @@ from assur.derivation.phrases import (
     phrase,
 )
 from assur.derivation.solution import AnalyticSolution
+from assur.derivation.symbols import circle_of
 from assur.derivation.witness import Element, ModularWitness
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, subtract, triple
@@ -60,6 +62,8 @@ class FactorMeanings:
         """
         if not factor.free_symbols - {*self.solution.symbols.parameters.values()}:
             return phrase("it never vanishes" if never_zero(factor) else "it vanishes at special dimensions alone")
+        if factor == circle_of("theta")[0]:
+            return phrase(RIGHT_ANGLE)
         values = self._values(factor)
         if self._alike(values, self._values(sympy.Integer(1))):
             return phrase("it never vanishes")
@@ -137,6 +141,10 @@ class FactorMeanings:
         return [line for own in self.solution.loops.directions if (line := self.lines.of(own)) is not None]
 
     def _formulas(self) -> Iterator[tuple[sympy.Expr, GeometricPhrase]]:
+        parasitic = parasitic_circle(self.solution)
+        for part in self.solution.sets:
+            if parasitic is not None and parasitic in part.directions:
+                yield from ((own.quantity, phrase(UNSAID, self.lines.name(parasitic))) for own in part.roots)
         for first, second in itertools.combinations(self._lines, 2):
             yield from self._pair(first, second)
         for three in itertools.combinations(self._lines, 3):

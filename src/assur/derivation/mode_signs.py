@@ -23,7 +23,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, pose
 from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.home import home_values
-from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.modes import Problem, sign_names, written_quantities
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.model.closed_form import ClosedForm
 from assur.model.kernel_dimensions import kernel_dimensions
@@ -46,7 +46,8 @@ class MatchedSigns:
     """What the signs of modes are those of.
 
     Attributes:
-        roots: problem and root -> the sign of a mode, and whether the root has it or its opposite.
+        roots: problem and root -> the sign of a mode, and whether the root has it or its opposite. A sign without name
+            is that of home: the file's modes do not know legs of negative length.
         factors: sign of a mode that no root has -> a product of factors and of quantities that has it.
         products: problem and root -> what the sign is multiplied with.
     """
@@ -111,7 +112,9 @@ class _Matching:
                 left = {k: name for k, name in left.items() if name not in factors}
             if left:
                 raise NotDerivedError(f"{', '.join(left.values())} name modes, and no root has their sign")
-        names = [{name for (of, _), (name, _) in matched.items() if of == problem} for problem in self.solutions]
+        names = [
+            {name for (of, _), (name, _) in matched.items() if of == problem and name} for problem in self.solutions
+        ]
         if alike := set.intersection(*names):
             raise NotDerivedError(
                 f"modes of both problems are called {', '.join(sorted(alike))}: a closed form needs names that differ, "
@@ -133,6 +136,9 @@ class _Matching:
         shares: dict[sympy.Symbol, dict[int, Share]] = {}
         for root in solution.roots:
             share = self._shares(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
+            if not share and root.quantity in solution.loops.strokes and written_quantities(self.record, problem):
+                matched[problem, root.symbol] = "", 1 if solution.symbols.witness.home[root.symbol] > 0 else -1
+                continue
             if not share:
                 raise NotDerivedError(
                     f"the sign of {root.quantity} is none by which the modes of {self.record.name} are named"

@@ -131,7 +131,7 @@ def _signs(record: MechanismRecord, solutions: Mapping[Problem, AnalyticSolution
             if problem not in whole:
                 whole[problem] = analytic_solution(record, problem)
         matched = matched_signs(whole["direct"], whole["inverse"])
-        return {root: own for root, own in matched.roots.items() if root not in matched.products}
+        return {root: own for root, own in matched.roots.items() if root not in matched.products and own[0]}
     except NotDerivedError:
         return {}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from assur.derivation.solution import AnalyticSolution
-from assur.model.pose import ANGLES
 
 
 def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
@@ -13,22 +12,19 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
 
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
-    >>> [*turning_in_space(analytic_solution(load_record("three_rps"), "inverse"))]
-    ['a platform of whose orientation the pose says a part']
+    >>> [*turning_in_space(analytic_solution(load_record("gough_stewart"), "inverse"))]
+    ['rods whose length is sought']
     >>> [*turning_in_space(analytic_solution(load_record("fivebar"), "inverse"))]
     []
     """
     yield from without_identities(solution)
-    placed, loops, record = solution.placed, solution.loops, solution.symbols.record
+    placed, loops = solution.placed, solution.loops
     if placed.named.definitions:
         yield "directions that what is given turns in space"
     if loops.shared:
         yield "axes that links share which turn in space"
     if any(own.kind == "rod" for own in loops.strokes.values()):
         yield "rods whose length is sought"
-    turned = placed.links[record.platform.link].axis is not None and {*ANGLES} & {*record.platform.pose}
-    if solution.symbols.problem == "inverse" and turned:
-        yield "a platform of whose orientation the pose says a part"
 
 
 def without_identities(solution: AnalyticSolution) -> Iterator[str]:

@@ -14,10 +14,12 @@ from itertools import combinations
 
 import sympy
 
+from assur.derivation.determinant_factors import factors_of
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.linear import ONE, Form, combined, divided, form_of, replaced, solved, sparse, tidy
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.parasitic_rate import parasitic_circle, without_rate
 from assur.derivation.quotients import primitive
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import turning_in_space
@@ -111,6 +113,9 @@ class _Velocities:
         self.passive: list[sympy.Symbol] = []
         self.steady: list[tuple[sympy.Expr, sympy.Expr]] = []
         self.carriers: dict[UnknownDirection, sympy.Symbol] = {}
+        self.parasitic = parasitic_circle(solution)
+        if self.parasitic is not None:
+            self.carriers[self.parasitic] = sympy.Symbol(f"d_{self.parasitic.name}", real=True)
         self.rates = dict(self._rates())
 
     def equations(self) -> VelocityEquations:
@@ -124,6 +129,10 @@ class _Velocities:
                 rows.append(replaced(across, values, self.witness))
         _, rows = solved(rows, self.passive, self.witness)
         rows = [divided(self._alike(row)) for row in rows if row]
+        if self.parasitic is not None:
+            rows = [{key: self._on_circles(part) for key, part in row.items()} for row in rows]
+            rate = self.carriers[self.parasitic]
+            return VelocityEquations(*without_rate(self.solution, rows, rate, self.pose, self.inputs))
         rows = [divided(row) for row in sparse(rows, self.witness, everywhere=True)]
         size = len(self.pose)
         if len(rows) != size or len(self.inputs) != size:
@@ -302,48 +311,4 @@ class _Velocities:
     def _rate(self, form: Form) -> Form:
         expression = sum((part * key for key, part in form.items()), sympy.Integer(0))
         total = sum(expression.diff(symbol) * rate for symbol, rate in self.rates.items())
-        return form_of(total, [*self.passive, *self.pose, *self.inputs], self.witness)
-
-
-def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
-    """Factors of a determinant with their powers, a number first.
-
-    Rows and columns with one entry are taken out first: an entry is small, and a root of three in it does no harm.
-
-    >>> x, y = sympy.symbols("x y")
-    >>> factors_of(sympy.Matrix([[2 * x, 0], [1, x + y]]))
-    ((2, 1), (x, 1), (x + y, 1))
-    """
-    number, powers = sympy.Integer(1), dict[sympy.Expr, int]()
-    left = matrix
-    while True:
-        alone = _alone(left)
-        own = left[alone] * (-1) ** sum(alone) if alone else left.det(method="berkowitz") if left.rows else 1
-        for base, exponent in sympy.factor(sympy.cancel(own)).as_powers_dict().items():
-            base = _on_circles(base)
-            factor, power = (sympy.sqrt(base), 2 * exponent) if exponent.q == 2 else (base, exponent)
-            if factor.is_number:
-                number *= factor**power
-            else:
-                powers[factor] = powers.get(factor, 0) + int(power)
-        if alone is None:
-            return ((number, 1), *powers.items())
-        left = left.minor_submatrix(*alone)
-
-
-def _on_circles(factor: sympy.Expr) -> sympy.Expr:
-    """1 where a factor is the sum of the squares of an angle's cosine and sine; else the factor."""
-    own = factor
-    for sine in factor.atoms(sympy.sin):
-        own = sympy.expand(own.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
-    return own if own.is_number else factor
-
-
-def _alone(matrix: sympy.Matrix) -> tuple[int, int] | None:
-    """The place of an entry that is alone in its row or column."""
-    for upright, lines in ((False, matrix.tolist()), (True, matrix.T.tolist())):
-        for i, line in enumerate(lines):
-            entries = [j for j, entry in enumerate(line) if entry != 0]
-            if len(entries) == 1:
-                return (entries[0], i) if upright else (i, entries[0])
-    return None
+        return form_of(total, [*self.passive, *self.carriers.values(), *self.pose, *self.inputs], self.witness)

@@ -72,7 +72,7 @@ class WrittenPolynomial(WrittenEquations):
         yield f"${base}$ is taken as known: the first two are lines of ${first}$ and ${last}$. With"
         numbered = [*eliminant.steps[:-1]]
         conic = [own for own in numbered if own.symbol in eliminant.conic]
-        across = [own for own in numbered if own not in conic]
+        across = [own for own in numbered if own not in (*conic, *eliminant.meeting)]
         yield tuple(self.line(own.symbol, own.formula) for own in (*eliminant.known, *eliminant.entries))
         yield f"the first and the last give ${first}$ by ${last}$, as Cramer's rule says,"
         yield tuple(self._by_last(eliminant, pair))
@@ -84,8 +84,10 @@ class WrittenPolynomial(WrittenEquations):
         if conic:
             yield "with"
             yield tuple(self.line(own.symbol, own.formula) for own in conic)
+        yield f"A line, a conic and the circle of ${last}$ are left. With"
+        yield tuple(self.line(own.symbol, own.formula) for own in eliminant.meeting)
         yield (
-            f"A line, a conic and the circle of ${last}$ meet in a point where this vanishes, "
+            f"they meet in a point where this vanishes, "
             rf"in $t = \tan(\frac{{1}}{{2}}{base})$ a polynomial of degree {eliminant.degree}:"
         )
         yield (WrittenFormula("0", self.writer.rows(eliminant.steps[-1].formula, 3)),)

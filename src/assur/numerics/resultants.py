@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from assur.numerics.polynomials import Polynomial, add, multiply, scaled, subtract
-from assur.numerics.vectors import Vector, apply, cross, dot, transposed, triple
+from assur.numerics.vectors import Vector, apply, cross, difference_of_angles, dot, transposed, triple
 from assur.numerics.vectors import add as add_vectors
 from assur.numerics.vectors import scaled as scaled_vector
 from assur.numerics.vectors import subtract as subtract_vectors
@@ -24,6 +24,9 @@ Quadric = tuple[Polynomial, Polynomial, Polynomial, Polynomial, Polynomial, Poly
 """Factors of x^2, x y, y^2, x, y and 1, polynomials in t of degrees 0, 0, 0, 1, 1, 2; it is where the sum is zero."""
 Form = tuple[Number, Vector]
 """k and f of k + f . w, where w are three coordinates."""
+Pair = tuple[Number, Number]
+CircleForm = tuple[Number, Sequence[Pair]]
+"""k and, for each of three angles, factors of its cosine and its sine."""
 Minors = Mapping[tuple[int, ...], Polynomial]
 """Three columns of three quadrics or forms -> their determinant."""
 
@@ -69,21 +72,64 @@ def nearer(sums: Sequence[Sequence[Form]], point: Vector) -> Vector:
     """
     for _ in range(STEPS):
         places = [[(constant + dot(factors, point), factors) for constant, factors in forms] for forms in sums]
-        one, two, three = (_sum([scaled_vector(factors, place) for place, factors in own]) for own in places)
-        rows = (one, two, three)
-        (a, b, c), (_, d, e), (_, _, f) = (
-            tuple(dot(row, other) + DAMPING * (i == k) for k, other in enumerate(rows)) for i, row in enumerate(rows)
-        )
-        adjugate = ((d * f - e * e, c * e - b * f, b * e - c * d), (c * e - b * f, a * f - c * c, b * c - a * e),
-                    (b * e - c * d, b * c - a * e, a * d - b * b))  # fmt: skip
-        # the determinant of the damped products of the rows, as squares: never zero
-        volume, lengths = triple(*rows), sum(dot(row, row) for row in rows)
-        areas = sum(dot(area, area) for area in (cross(one, two), cross(two, three), cross(one, three)))
-        determinant = volume * volume + DAMPING * (areas + DAMPING * (lengths + DAMPING))
-        missing = tuple((sum(place * place for place, _ in own) - 1) / 2 for own in places)
-        weights = scaled_vector(apply(adjugate, missing), 1 / determinant)
-        point = subtract_vectors(point, apply(transposed(rows), weights))
+        rows = [_sum([scaled_vector(factors, place) for place, factors in own]) for own in places]
+        missing = [(sum(place * place for place, _ in own) - 1) / 2 for own in places]
+        point = subtract_vectors(point, _step(rows, missing))
     return point
+
+
+def nearer_angles(sums: Sequence[tuple[Number, Sequence[CircleForm]]], angles: Sequence[Pair]) -> tuple[Pair, ...]:
+    """Cosines and sines of three angles after two such steps towards three sums of squares in these.
+
+    Args:
+        sums: of each what it is to be, and the forms k + f . (cosine, sine) + ... of the three angles.
+        angles: nearly.
+
+    >>> axes = [[(int(k == own),) * 2 for k in range(3)] for own in range(3)]
+    >>> [round(part, 9) + 0.0 for part in nearer_angles([(1, [(0, own)]) for own in axes], [(1, 1e-3)] * 3)[0]]
+    [1.0, 0.0]
+    """
+    for _ in range(STEPS):
+        angles = [(c * (3 - c * c - s * s) / 2, s * (3 - c * c - s * s) / 2) for c, s in angles]  # squares add up to 1
+        rows, missing = [], []
+        for total, forms in sums:
+            places = [constant + sum(map(_along, factors, angles)) for constant, factors in forms]
+            slopes = [tuple(map(_across, factors, angles)) for _, factors in forms]
+            whole = _sum([scaled_vector(slope, place) for slope, place in zip(slopes, places, strict=True)])
+            rows.append(scaled_vector(whole, 1 / total))
+            missing.append((sum(place * place for place in places) / total - 1) / 2)
+        angles = [*map(difference_of_angles, angles, map(_small, _step(rows, missing)))]
+    return tuple(angles)
+
+
+def _along(factors: Pair, angle: Pair) -> Number:
+    return factors[0] * angle[0] + factors[1] * angle[1]
+
+
+def _across(factors: Pair, angle: Pair) -> Number:
+    return factors[1] * angle[0] - factors[0] * angle[1]
+
+
+def _small(turn: Number) -> Pair:
+    """An angle that is near zero: twice the one that has half of it as its tangent."""
+    square = turn * turn / 4
+    return ((1 - square) / (1 + square), turn / (1 + square))
+
+
+def _step(rows: Sequence[Vector], missing: Sequence[Number]) -> Vector:
+    """By which three linear forms are to change, by damped least squares."""
+    one, two, three = rows
+    (a, b, c), (_, d, e), (_, _, f) = (
+        tuple(dot(row, other) + DAMPING * (i == k) for k, other in enumerate(rows)) for i, row in enumerate(rows)
+    )
+    adjugate = ((d * f - e * e, c * e - b * f, b * e - c * d), (c * e - b * f, a * f - c * c, b * c - a * e),
+                (b * e - c * d, b * c - a * e, a * d - b * b))  # fmt: skip
+    # the determinant of the damped products of the rows, as squares: never zero
+    volume, lengths = triple(one, two, three), sum(dot(row, row) for row in rows)
+    areas = sum(dot(area, area) for area in (cross(one, two), cross(two, three), cross(one, three)))
+    determinant = volume * volume + DAMPING * (areas + DAMPING * (lengths + DAMPING))
+    weights = scaled_vector(apply(adjugate, (missing[0], missing[1], missing[2])), 1 / determinant)
+    return apply(transposed((one, two, three)), weights)
 
 
 def _sum(vectors: Sequence[Vector]) -> Vector:

@@ -38,7 +38,7 @@ ALGEBRA: Mapping[str, tuple[str, ...]] = {
     "legs": ("couples", "from_leg", "in_leg", "pointing", "thirds", "two_bars"),
     "triangles": ("cross", "lines", "polynomial", "position", "rotated"),
     "polynomials": ("add", "half_angle", "multiply", "scaled", "subtract"),
-    "resultants": ("ASKEW", "eliminant", "nearer", "other_two", "sum_of_squares"),
+    "resultants": ("ASKEW", "eliminant", "nearer", "nearer_angles", "other_two", "sum_of_squares"),
     "expanded": ("coefficients_of", "unknowns"),
 }  # fmt: skip
 """Modules of `assur.numerics` and what a kernel may take from each; a test compares the docs with this table."""

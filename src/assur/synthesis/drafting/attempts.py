@@ -12,6 +12,7 @@ from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import written_quantities
+from assur.kinematics.parasitic import moving
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.structure import linkage
 from assur.kinematics.validation.check import faults
@@ -165,6 +166,8 @@ class DraftQuestion:
         if len(knees) < len(drawn.templates):
             return chosen
         record = self._read(drawn, dataclasses.replace(chosen, working=_working(drawn, knees)))
+        if {*moving(record)} & {*ANGLES}:  # at one pose the platform stands in two ways, which no knee tells
+            return chosen
         values = home_values(record)
         sizes = iter(
             [float(quantity(record, formula, values)) for formula in written_quantities(record, "inverse").values()]
