@@ -17,6 +17,7 @@ from assur.kinematics.home import without_loops
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.render import Page, page_html
+from assur.report.sections.accuracy import accuracy
 from assur.report.sections.aspects import aspects
 from assur.report.sections.auditing import auditing
 from assur.report.sections.basis import basis
@@ -27,6 +28,7 @@ from assur.report.sections.position import position
 from assur.report.sections.provenance import provenance
 from assur.report.sections.reach import reach
 from assur.report.sections.singularities import singularities
+from assur.report.sections.stiffness import stiffness
 from assur.report.sections.summary import summary
 from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
@@ -48,6 +50,8 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
     ("Aspects", aspects),
     ("Dexterity", performance),
     ("Forces", forces),
+    ("Stiffness", stiffness),
+    ("Accuracy", accuracy),
     ("Audit of the source", auditing),
     (KNOWN, basis),
     ("Sources and versions", provenance),

@@ -1,0 +1,74 @@
+"""Stiffness: how the platform gives way where it is drawn, what gives way, and the slowest natural vibrations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from assur.errors import UsageError
+from assur.kinematics.status import Status
+from assur.machine.elasticity.stiffness import ACTUATORS, EnergyShares, Stiffness, stiffness_at
+from assur.report.findings import Findings
+from assur.results.kinds import FLOATING, RANK, Result, Scalar, Section, Table
+from assur.results.typeset_text import short
+
+SAID = (
+    "How the platform gives way in the configuration that is drawn while the actuators hold their inputs. Links with a"
+    " profile are Timoshenko’s beams, the others rigid, actuators are springs; profiles, materials and springs are"
+    " those of the mechanism’s file, which says where they come from."
+)
+
+
+def stiffness(findings: Findings) -> Section:
+    """Principal stiffness, shares of the energy, frequencies.
+
+    Errors:
+        UsageError: an actuator without stiffness, a pose that the actuators do not hold.
+    """
+    answer = stiffness_at(findings.record, findings.drawn_joints[None])
+    status = Status(int(answer.status[0]))
+    if status != Status.regular:
+        raise UsageError(f"the actuators do not hold the platform where it is drawn: it is {status.name} there")
+    results: list[Result] = [
+        Scalar("ways in which the platform gives way", int(answer.rank[0]), "", RANK, note="of six"),
+        _principal(answer),
+        *_shared(answer.shares()),
+        *_vibrations(answer),
+    ]
+    return Section("Stiffness", SAID, results)
+
+
+def _principal(answer: Stiffness) -> Table:
+    (sizes,), (ways,) = answer.translational
+    alone = answer.actuator_only.translational[0][0]
+    rows = tuple(
+        (_micro(size), ", ".join(short(float(part) + 0.0, 3) for part in np.round(way, 3)), _micro(motors))
+        for size, way, motors in zip(sizes, ways, alone, strict=True)
+    )
+    columns = ("stiffness (N/µm)", "along x, y, z", "actuators alone (N/µm)")
+    caption = "Of forces along principal directions without moment; those of the actuators alone have their own."
+    return Table("Principal stiffness", columns, rows, caption, known_by=FLOATING)
+
+
+def _micro(value: float) -> str:
+    return short(float(value) / 1e6, 4) if np.isfinite(value) else "rigid"
+
+
+def _shared(shares: EnergyShares) -> Iterator[Table]:
+    """By links and actuators, the largest first, and by kinds where links bend."""
+    caption = "Of the strain energy under unit forces along x, y and z, summed."
+    bent = {name: share for name, share in shares.links.items() if name != ACTUATORS}
+    whole = bent | {name: share * shares.links[ACTUATORS] for name, share in shares.actuators.items()}
+    for title, own in (("What gives way", whole), ("Kinds of strain", shares.kinds if bent else {})):
+        rows = tuple((name, f"{share:.1%}") for name, share in sorted(own.items(), key=lambda pair: -pair[1]))
+        if rows:
+            yield Table(title, ("in", "share"), rows, caption, folded=len(rows) > 8, known_by=FLOATING)
+
+
+def _vibrations(answer: Stiffness) -> Iterator[Result]:
+    own = answer.vibrations()
+    if own.lacking or not len(own.frequencies):
+        return
+    rows = tuple((str(place), short(float(value), 4)) for place, value in enumerate(own.frequencies, 1))
+    yield Table("Slowest natural vibrations", ("", "frequency (Hz)"), rows, known_by=FLOATING)
