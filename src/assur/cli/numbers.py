@@ -53,7 +53,13 @@ def _hint(text: str) -> str:
 
 
 def numbers(texts: Sequence[str], names: Sequence[str], what: str) -> list[float]:
-    """One number per name, or a refusal that names the one that is wrong."""
+    """One number per name, in words of their own or with commas in one, or a refusal that names the one that is wrong.
+
+    >>> numbers(["1", "2", "-3"], ("x", "y", "z"), "pose"), numbers(["1,2,-3"], ("x", "y", "z"), "pose")
+    ([1.0, 2.0, -3.0], [1.0, 2.0, -3.0])
+    """
+    if len(texts) == 1 and texts[0].count(",") == len(names) - 1 > 0:
+        texts = texts[0].split(",")
     if len(texts) != len(names):
         count = f"{len(texts)} value" if len(texts) == 1 else f"{len(texts)} values"
         raise UsageError(f"{what}: {count}, {len(names)} wanted", hint=f"give {', '.join(names)}")
