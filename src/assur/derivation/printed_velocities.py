@@ -94,8 +94,11 @@ class _Velocities:
         return BREAK.join([texts[0], *further])
 
     def factors(self) -> Iterator[PrintedFactor]:
-        said = FactorMeanings(self.written.solution)
+        said, told = FactorMeanings(self.written.solution), list[tuple[str, sympy.Expr]]()
         for _, kind, value in self.formulas.factors:
+            if any(kind == other and said.proportional(value, own) for other, own in told):
+                continue
+            told.append((kind, value))
             meaning = said.of(value, kind, shared=self.formulas.is_shared(value))
             if meaning.text == "it never vanishes":
                 continue
