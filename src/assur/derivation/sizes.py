@@ -55,12 +55,14 @@ class Sizes:
         return own | self.inputs
 
     def unit(self, value: sympy.Expr) -> int:
-        """Power of the length unit, by a change of all lengths."""
-        factor = 2.0
-        numbers = {symbol: 0.3 + 0.1 * k for k, symbol in enumerate(sorted(value.free_symbols, key=str))}
-        larger = {symbol: number * (factor if symbol in self.lengths else 1.0) for symbol, number in numbers.items()}
-        share = complex(value.evalf(subs=larger)) / complex(value.evalf(subs=numbers))
-        return int(sympy.log(abs(share), 2).round())
+        """Power of the length unit: the greatest among the terms of a sum, where a plain number may be a length too."""
+        if value.is_Add:
+            return max(map(self.unit, value.args))
+        if value.is_Mul:
+            return sum(map(self.unit, value.args))
+        if value.is_Pow:
+            return int(self.unit(value.base) * value.exp)
+        return int(value in self.lengths)
 
     def scale(self, value: sympy.Expr, at_home: float | None = None) -> str:
         """The sum of the magnitudes of its terms over a power of the largest length.

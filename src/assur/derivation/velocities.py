@@ -25,6 +25,7 @@ from assur.derivation.solution import AnalyticSolution
 from assur.derivation.space import turning_in_space
 from assur.derivation.steady_sums import steady_sum, with_steady_sum
 from assur.derivation.symbols import circle_of
+from assur.derivation.turning_slides import along_slides
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.model.mechanism import Joint
 from assur.model.pose import ANGLES
@@ -108,6 +109,7 @@ class _Velocities:
     def __init__(self, solution: AnalyticSolution) -> None:
         self.solution, self.symbols, self.witness = solution, solution.symbols, solution.symbols.witness
         self.record = self.symbols.record
+        self.circles = [own.unknowns for own in solution.loops.directions if own.kind == "circle"]
         self.pose = [sympy.Symbol(f"d_{name}", real=True) for name in self.record.platform.pose]
         self.inputs = [sympy.Symbol(f"d_{driven.name}", real=True) for driven in self.record.inputs]
         self.passive: list[sympy.Symbol] = []
@@ -121,7 +123,7 @@ class _Velocities:
     def equations(self) -> VelocityEquations:
         driven = [*self._driven()]
         loops = sparse(self.solution.loops.forms, self.witness, everywhere=True)
-        forms = [self._rate(form) for form in loops]
+        forms = along_slides(map(self._rate, loops), self.passive, self.circles, self.witness)
         values, rows = solved(forms, self.passive, self.witness)
         for direction in self.solution.loops.directions:
             if direction not in driven and direction not in self.carriers:
@@ -199,8 +201,7 @@ class _Velocities:
     def _on_circles(self, entry: sympy.Expr) -> sympy.Expr:
         """A number where an entry is a multiple of the sum of the squares of a cosine and its sine; else the entry."""
         own = sympy.expand(entry)
-        circles = [direction.unknowns for direction in self.solution.loops.directions if direction.kind == "circle"]
-        for cosine, sine in (*circles, *self.symbols.circles):
+        for cosine, sine in (*self.circles, *self.symbols.circles):
             own = sympy.expand(own.subs(sine**2, 1 - cosine**2))
         return own if own.is_number else entry
 
