@@ -24,6 +24,7 @@ from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_
 from assur.kinematics.closing_blocks.folds import differing_at_folds
 from assur.kinematics.closing_blocks.namesakes import namesakes
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors
+from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.closure import assemble
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
@@ -77,6 +78,11 @@ class ModeSign:
         blocks = [factor.block for factor in self.factors if isinstance(factor, BlockSign)]
         return any(column >= len(record.coordinates) for block in blocks for column in block.columns)
 
+    def read_off_inputs(self, record: MechanismRecord) -> bool:
+        """Whether it is nothing but strokes of driven slides: of one direct problem all solutions have the same."""
+        driven = {item.coordinate.joint for item in record.inputs}
+        return all(isinstance(factor, StrokeSign) and factor.slide in driven for factor in self.factors)
+
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where one of the factors vanishes."""
         signs: SignArray = np.prod([factor.signs(screws) for factor in self.factors], axis=0, dtype=np.int8)
@@ -107,10 +113,11 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
     last = [problem == "direct" and flat for flat in _flat_loops(known, joined, ScrewColumns(ordered, near))]
     order = [*_separating(apart.T, last)]
-    merging = differing_at_folds(ordered, problem, signs, near, order)
+    given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(ordered)]
+    merging = differing_at_folds(ordered, problem, signs, near, [*order, *given])
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
-    unnamed = namesakes(ordered, problem, signs, near, order)
+    unnamed = namesakes(ordered, problem, signs, near, [*order, *given])
     order += _separating(unnamed.T, last)
     return tuple(
         ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)

@@ -63,7 +63,7 @@ def differing_at_folds(
     """Which signs (P, s) differ between two solutions of the problem that merge, at folds between assemblies (N, n).
 
     No fold is sought where each sign is a product of those with the places `telling`, in every one of the assemblies:
-    then it differs as these do.
+    then it differs as these do. Signs that the inputs decide may be among them.
     """
     signs = factor_signs(known, ScrewColumns(record, near))
     regular = np.all(signs != 0, axis=1)

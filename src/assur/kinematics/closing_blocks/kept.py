@@ -24,7 +24,8 @@ from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
 from assur.kinematics.closing_blocks.sentences import sentence
-from assur.kinematics.closing_blocks.signs import BlockSign, Factor, StrokeSign
+from assur.kinematics.closing_blocks.signs import BlockSign, Factor
+from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.modes import Problem
 from assur.model.dimensions import of_file
 from assur.model.mechanism import MechanismRecord

@@ -44,7 +44,7 @@ def namesakes(
         problem: "direct" holds the inputs, "inverse" the pose.
         known: the signs.
         near: assemblies (N, n), some of which are led to the problems of others.
-        telling: places of signs that have names.
+        telling: places of signs that have names, or that the inputs decide.
     """
     signs = factor_signs(known, ScrewColumns(record, near))
     regular = np.all(signs != 0, axis=1)

@@ -9,7 +9,7 @@ from assur.kinematics.closing_blocks.blocks import PLATFORM
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign
 from assur.kinematics.closing_blocks.sides import side
-from assur.kinematics.closing_blocks.signs import StrokeSign
+from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 

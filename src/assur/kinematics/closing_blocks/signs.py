@@ -33,15 +33,12 @@ from assur.kinematics.closing_blocks.blocks import (
 )
 from assur.kinematics.closing_blocks.columns import FEW, ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.spaces import in_narrow_loops, span, steadiest_link
+from assur.kinematics.closing_blocks.strokes import MERGED, StrokeSign, stroke_signs, with_zero
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.rotations import cross
 
 FloatArray = NDArray[np.float64]
 SignArray = NDArray[np.int8]
-MERGED = 1e-9
-"""Share of a block's largest determinant among assemblies by chance below which it has no sign."""
-
 PAIRS = 14
 """Links up to which two of them are held at once, in search of factors."""
 
@@ -98,45 +95,7 @@ class BlockSign:
 
     def signs(self, screws: ScrewColumns) -> SignArray:
         """Signs (N,); 0 where the block is singular."""
-        return _with_zero(self.shares(screws))
-
-
-@dataclass(frozen=True, eq=False)
-class StrokeSign:
-    """The sign of a stroke: on which side of one joint's centre another lies, along a slide between the two.
-
-    Both are ball or universal joints, so that a stroke of zero is a singularity; the square of it is what a block's
-    determinant has as a factor.
-
-    Attributes:
-        slide: the prismatic joint.
-        near, far: the joints on its parent and on its child link.
-        size: the stroke at home.
-    """
-
-    slide: str
-    near: str
-    far: str
-    size: float = 1.0
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """The three of them."""
-        return self.near, self.slide, self.far
-
-    def shares(self, screws: ScrewColumns) -> FloatArray:
-        """The stroke (N,) as a share of home's."""
-        line = screws.centre(self.far) - screws.centre(self.near)
-        return np.asarray(np.einsum("ni,ni->n", line, screws.axis(self.slide)) / self.size)
-
-    def signs(self, screws: ScrewColumns) -> SignArray:
-        """Signs (N,); 0 where the joints are in one place."""
-        return _with_zero(self.shares(screws))
-
-
-def _with_zero(values: FloatArray) -> SignArray:
-    """Signs (N,) of shares (N,); 0 where one has merged."""
-    return np.where(np.abs(values) > MERGED, np.sign(values), 0).astype(np.int8)
+        return with_zero(self.shares(screws))
 
 
 Factor = BlockSign | StrokeSign
@@ -157,36 +116,27 @@ def factors(record: MechanismRecord, problem: Problem) -> tuple[Factor, ...]:
     >>> ('A2', 'B2', 'P') in [factor.joints for factor in factors(load_record("fivebar"), "inverse")]
     True
     """
-    screws = _apart(ScrewColumns(record, assemblies_by_chance(record)))
-    signs: list[Factor] = [*_stroke_signs(screws), *_loop_signs(screws), *_block_signs(record, problem, screws)]
+    screws = _apart(record)
+    signs: list[Factor] = [*_of_no_problem(record), *_block_signs(record, problem, screws)]
     return tuple(sorted(signs, key=lambda sign: len(sign.joints)))
 
 
-def _apart(screws: ScrewColumns) -> ScrewColumns:
+@lru_cache(maxsize=8)
+def _of_no_problem(record: MechanismRecord) -> tuple[Factor, ...]:
+    """Signs that hold whichever problem is asked: those of strokes, and of loops that move by themselves."""
+    screws = _apart(record)
+    return (*stroke_signs(screws), *_loop_signs(screws))
+
+
+@lru_cache(maxsize=8)
+def _apart(record: MechanismRecord) -> ScrewColumns:
     """The assemblies in which no two balls meet that are apart at home: a rod between them would have no line."""
+    screws = ScrewColumns(record, assemblies_by_chance(record))
     balls = [screws.centre(name) for name, joint in screws.record.joints.items() if joint.type.ball]
     gaps = [np.linalg.norm(second - first, axis=1) for first, second in combinations(balls, 2)]
     near = [gap <= SMALL * characteristic_length(screws.record) for gap in gaps]
     meeting = np.any([held & ~held[0] for held in near], axis=0) if near else np.zeros(len(screws.values), dtype=bool)
     return ScrewColumns(screws.record, screws.values[~meeting])
-
-
-def _stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
-    record = screws.record
-    centred = [name for name, joint in record.joints.items() if joint.type.ball or joint.type.turns == 2]
-    for name, slide in record.joints.items():
-        if (slide.type.slides, slide.type.turning) != (1, False):
-            continue
-        for near, far in product(centred, repeat=2):
-            ends = [{record.joints[end].parent, record.joints[end].child} for end in (near, far)]
-            if near == far or slide.parent not in ends[0] or slide.child not in ends[1]:
-                continue
-            line = screws.centre(far) - screws.centre(near)
-            off = np.linalg.norm(cross(line, screws.axis(name)), axis=1)
-            if np.max(off) < SMALL * characteristic_length(record):
-                stroke = float(StrokeSign(name, near, far).shares(screws)[0])
-                if stroke:
-                    yield StrokeSign(name, near, far, stroke)
 
 
 def _loop_signs(screws: ScrewColumns) -> Iterator[BlockSign]:
