@@ -9,6 +9,8 @@ from assur.derivation.residue_systems import ResidueSystem
 from assur.derivation.solution import analytic_solution
 from assur.derivation.solution_count import solution_count
 from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 QUICK = ("fivebar",)
 OTHERS = ("zeng2019", "planar_3rpr", "planar_3rrr", "three_rrc", "delta_4s", "linear_delta_4s", "linear_delta_4r",
@@ -26,6 +28,15 @@ def test_the_count_is_that_of_the_branches(name, no_msolve):
     own = solution_count(record, "direct")
     assert (own.solutions, own.why, own.program) == (analytic_solution(record, "direct").branches, "", "sympy")
     assert len({*own.primes}) == 2
+
+
+@pytest.mark.deep
+def test_rods_on_hinges_that_a_turning_link_carries_are_counted(no_msolve, tmp_path):
+    path = tmp_path / "draft.toml"
+    chains = ["C[x] P(4R)[y] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"]
+    path.write_text(drafted(parse_chains(chains), path).text, encoding="utf-8")
+    # The first limb has two cranks, each with two rods; the others have two elbows each.
+    assert solution_count(load_record(path), "inverse").solutions == 4 * 2 * 2
 
 
 CIRCLES = ResidueSystem(101, 2, ({(2, 0): 1, (0, 2): 1, (0, 0): 100}, {(1, 1): 1, (0, 0): 98}))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Literal
 
 import sympy
@@ -65,6 +66,15 @@ class CarriedVectors:
         across = self.short(axis, self.tidied(subtract(turned, along)))
         beside = self.short(axis, self.tidied(cross(axis, across)))
         return [(sympy.Integer(1), along), (cosine, across), (sine, beside)]
+
+    def leanings(self, used: Collection[UnknownDirection]) -> list[sympy.Expr]:
+        """What vanishes as rods lean on their hinges as they do, where used directions say how both turn."""
+        return [
+            dot(self.rods[own.rod].unknowns, self._turned(own, own.hinge)) - dot(own.line, own.hinge)
+            for own in dict.fromkeys(self.placed.links.values())
+            if own.rod is not None and own.line is not None and own.hinge is not None and own.circle is not None
+            if {self.rods[own.rod], self.circles.get(own.circle)} <= {*used}
+        ]
 
     def short(self, axis: Vector, vector: Vector) -> Vector:
         """A vector by names, where it turns about an axis that what is given turns."""

@@ -47,7 +47,7 @@ def next_set(
         raise NotDerivedError(
             f"{' and '.join(blocked)}: turns, carries a slider, and no vector with it is solved alone"
         )
-    raise NotDerivedError(f"what is given does not determine {names}")
+    raise NotDerivedError(f"no set among {names} has as many linear equations as it needs")
 
 
 def equations_alone(

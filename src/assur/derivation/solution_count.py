@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from assur.derivation.carried_vectors import CarriedVectors
 from assur.derivation.linear import value_of
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.orientations import orientations
@@ -69,16 +70,17 @@ def _system(record: MechanismRecord, problem: Problem, seed: int) -> ResidueSyst
     for draw in range(DRAWS):
         witness = ModularWitness(seed + len(SEEDS) * draw, SMALL)
         symbols = GivenSymbols(record, problem, witness)
-        loops = loop_equations(symbols, orientations(symbols))
-        system = _at(loops, witness)
+        placed = orientations(symbols)
+        system = _at(loop_equations(symbols, placed), CarriedVectors(symbols, placed), witness)
         if system is not None:
             return system
     raise ArithmeticError("no draw at which every dimension has a residue")
 
 
-def _at(loops: LoopEquations, witness: ModularWitness) -> ResidueSystem | None:
+def _at(loops: LoopEquations, carried: CarriedVectors, witness: ModularWitness) -> ResidueSystem | None:
     unknowns = [*loops.lengths.values(), *(own for direction in loops.directions for own in direction.unknowns)]
     one = {across: length for length, across in loops.oblique.items()}
     equations = [value_of(form).xreplace(one) for form in loops.forms]
     equations += [direction.quadric for direction in loops.directions]
+    equations += carried.leanings(loops.directions)
     return residue_system(equations, unknowns, witness)
