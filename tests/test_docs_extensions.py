@@ -107,7 +107,7 @@ def test_the_lines_of_a_figure_make_it(extension, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(command.split()[1:]) == 0
     made = {path.name: path.read_bytes() for path in Path("figures").iterdir()}
-    assert len(made) == 3
+    assert len(made) == 4
     for path in Path("figures").iterdir():
         path.unlink()
     exec(python, {"assur": assur, "write": write})

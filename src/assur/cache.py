@@ -6,10 +6,12 @@ Everything there can be made anew, so it may be removed at any time.
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from assur.errors import UsageError
@@ -22,6 +24,7 @@ KINDS = {
     "programs": "programs of joint graphs",
     "modes": "names of modes",
     "derivations": "closed forms that were derived",
+    "searches": "families that a synthesis found",
     "consent": "Python of mechanisms that may run",
 }
 """Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""
@@ -101,16 +104,42 @@ def own_content(kind: str, name: str, largest: int) -> bytes | None:
     """What a kept file says; None where there is none, it is larger, or others than its user could have written it."""
     path = cache_folder() / kind / name
     try:
-        status = path.lstat()
-        own = not hasattr(os, "getuid") or status.st_uid == os.getuid()
-        plain = stat.S_ISREG(status.st_mode) and not status.st_mode & WRITABLE_BY_OTHERS
-        if not own or not plain or status.st_size > largest:
+        if not _is_own(path) or path.lstat().st_size > largest:
             return None
         content = path.read_bytes()
     except OSError:
         return None
     mark_used(path)
     return content
+
+
+def own_place(kind: str, name: str) -> Path | None:
+    """Where a file is kept that is written bit by bit; None where it cannot be, or others could have written it.
+
+    Where there is none, it is made, empty.
+    """
+    path = cache_folder() / kind / name
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch(0o644)
+        return path if _is_own(path) else None
+    except OSError:
+        return None
+
+
+def _is_own(path: Path) -> bool:
+    """Whether it is a plain file that none but its user could have written."""
+    status = path.lstat()
+    own = not hasattr(os, "getuid") or status.st_uid == os.getuid()
+    return own and stat.S_ISREG(status.st_mode) and not status.st_mode & WRITABLE_BY_OTHERS
+
+
+@cache
+def code_digest(*places: Path) -> str:
+    """A digest of files, and of the Python and TOML in folders; what depends on them is made anew where it changes."""
+    files = (sorted(place.rglob("*.*")) if place.is_dir() else [place] for place in places)
+    texts = (path.read_bytes() for some in files for path in some if path.suffix in {".py", ".toml"})
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def mark_used(path: Path) -> None:

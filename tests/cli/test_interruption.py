@@ -104,8 +104,9 @@ def test_a_certificate_is_written_with_what_is_proved(assur_cli, at_call, tmp_pa
     assert assur_cli("verify", str(path)).code == 0
 
 
-def test_mechanisms_that_were_found_are_listed(assur_cli, at_call):
-    at_call("assur.synthesis.synthesis.assemble", 4)
+def test_mechanisms_that_were_found_are_listed(assur_cli, at_call, tmp_path, monkeypatch):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
+    at_call("assur.synthesis.plans.assemble", 4)
     run = assur_cli("synthesize", "--max-joints", "3", "--symmetric", "--json")
     told(run)
     whole = assur_cli("synthesize", "--max-joints", "3", "--symmetric", "--json").json
@@ -113,7 +114,7 @@ def test_mechanisms_that_were_found_are_listed(assur_cli, at_call):
 
 
 def test_limbs_that_were_looked_at_are_counted(assur_cli, at_call):
-    at_call("assur.synthesis.synthesis.verdict", 9)
+    at_call("assur.synthesis.plans.verdict", 9)
     run = assur_cli("synthesize", "--max-joints", "3", "--symmetric")
     told(run)
     assert "0 mechanisms" in run.out

@@ -45,9 +45,11 @@ def test_elsewhere_one_line_says_that_it_takes_long(monkeypatch, json, lines):
     stream = io.StringIO()
     monkeypatch.setattr("sys.stderr", stream)
     monkeypatch.setattr("assur.cli.progress.LONG", 0.01)
-    with progress("thinking", Plain(json=json)):
+    with progress("thinking", Plain(json=json)) as step:
+        step(1, 301)
         end = time.monotonic() + (0.05 if json else 5.0)
         while not stream.getvalue() and time.monotonic() < end:
             time.sleep(0.01)
     assert stream.getvalue().count("\n") == lines
-    assert stream.getvalue().startswith("thinking: still at work" if lines else "")
+    said = "thinking: still at work after 0.01 s, 1 of 301 steps done, about 3 s left\n"
+    assert stream.getvalue() == (said if lines else "")

@@ -2,7 +2,7 @@ import pytest
 
 from assur.synthesis.explanation import explanation
 from assur.synthesis.known_mechanisms import limbs_driven_by, limbs_of
-from assur.synthesis.synthesis import question
+from assur.synthesis.question import question
 from assur.topology.notation import parse_chains
 
 CRR = "C[x] R[x] R[x]"

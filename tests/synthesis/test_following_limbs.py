@@ -5,6 +5,7 @@ import pytest
 
 from assur.model.topologies import load_topology
 from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, wrenches
+from assur.synthesis.question import question
 from assur.synthesis.synthesis import synthesis
 from assur.synthesis.virtual_chains import rows_named
 from assur.topology.notation import plain_text
@@ -16,7 +17,7 @@ from mobility_oracle import outcomes
 @pytest.fixture(scope="module")
 def about_a_point():
     """Three equal limbs that turn the platform about a point."""
-    return synthesis("3R", symmetric=True)
+    return synthesis(question("3R", symmetric=True))
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +88,9 @@ def test_the_oracle_of_finite_motion_confirms_some_mechanisms(about_a_point):
     "motion", ["2R", "3R", "1T1R", "2T1R:PPR", "1T2R:PU", "1T2R:UP", "1T2R:RPR", "3T1R:PPPR", "3T2R"]
 )
 def test_the_oracle_of_finite_motion_confirms_families_of_every_motion(motion):
-    found = synthesis(motion, members=1, symmetric=motion == "3T1R:PPPR")  # of different limbs there are 1.9 million
+    found = synthesis(
+        question(motion, members=1, symmetric=motion == "3T1R:PPPR")
+    )  # of different limbs there are 1.9 million
     families = random.Random(7).sample(found.families, min(8, len(found.families)))
     rows = {row.row: row for row in rows_named(motion)}
     for number, family in enumerate(families):

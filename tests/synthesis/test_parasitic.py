@@ -6,6 +6,7 @@ from assur.model.topologies import load_topology
 from assur.synthesis.assembly import Range, Sought, known_members
 from assur.synthesis.known_mechanisms import known_by_directions
 from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
+from assur.synthesis.question import question
 from assur.synthesis.required import PARASITIC
 from assur.synthesis.synthesis import synthesis
 from mobility_oracle import outcomes
@@ -22,7 +23,7 @@ def in_legs():
 @pytest.fixture(scope="module")
 def equal():
     """Three equal limbs that rise and tilt, driven inside."""
-    return synthesis("1T2R", symmetric=True, actuators="leg", parasitic=True)
+    return synthesis(question("1T2R", symmetric=True, actuators="leg", parasitic=True))
 
 
 def mechanisms(name, classes, line):
@@ -74,7 +75,7 @@ def confirmed_by_the_oracle(design, number):
 @pytest.mark.deep
 @pytest.mark.parametrize(("motion", "limbs", "place"), [("1T2R", 3, "leg"), ("1T2R", 4, "leg"), ("2R", 2, "base")])
 def test_the_oracle_of_finite_motion_confirms_the_first_of_every_family(motion, limbs, place):
-    found = synthesis(motion, limbs, actuators=place, members=1, parasitic=True)
+    found = synthesis(question(motion, limbs, actuators=place, members=1, parasitic=True))
     assert found.families
     for number, family in enumerate(found.families):
         confirmed_by_the_oracle(family.designs[0], number)

@@ -9,6 +9,7 @@ from assur.model.topologies import load_topology
 from assur.synthesis import limb_motions
 from assur.synthesis.answers import answers
 from assur.synthesis.isomorphism import mechanism_key
+from assur.synthesis.question import question
 from assur.synthesis.synthesis import synthesis
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.notation import parse_chain
@@ -110,7 +111,7 @@ def test_the_oracle_confirms_some_families_of_two_limbs(of_two_limbs):
 @pytest.mark.deep
 @pytest.mark.parametrize(("motion", "joints", "count"), [("3T", 5, 27), ("2T1R", 4, 18), ("3T1R", 4, 14)])
 def test_the_oracle_confirms_every_family_of_two_limbs(motion, joints, count):
-    families = without_rods(synthesis(motion, 2, joints, members=1))
+    families = without_rods(synthesis(question(motion, 2, joints, members=1)))
     assert len(families) >= count
     for number, family in enumerate(families):
         confirmed_by_the_oracle(family, number)
@@ -118,7 +119,7 @@ def test_the_oracle_confirms_every_family_of_two_limbs(motion, joints, count):
 
 @pytest.mark.deep
 def test_h4_is_found_among_two_limbs_of_four_freedoms():
-    found = synthesis("3T1R", 2, 4, members=2)
+    found = synthesis(question("3T1R", 2, 4, members=2))
     (design,) = named(found, "h4_robot")
     declared = load_topology("h4_robot").declared
     assert (design.dof, design.coupling_degree) == (declared.dof, declared.coupling_degree)
@@ -204,28 +205,28 @@ def test_the_engine_of_whole_mechanisms_agrees(in_space, in_legs, of_two_limbs, 
 
 
 def test_coupling_degrees_are_those_asked_for(small):
-    one = synthesis("3T", max_joints=3, coupling=(0, 1))
+    one = synthesis(question("3T", max_joints=3, coupling=(0, 1)))
     assert {design.coupling_degree for design in one.designs} == {1}
     wanted = [design.order for design in small.designs if design.coupling_degree == 1]
     assert [design.order for design in one.designs] == wanted
-    none = synthesis("3T", max_joints=3, coupling=(0, 0))
+    none = synthesis(question("3T", max_joints=3, coupling=(0, 0)))
     assert none.designs == ()
     assert min(none.tally.coupling_degrees) == 1
 
 
 def test_equal_limbs_only_where_asked(small):
-    equal = synthesis("3T", max_joints=3, symmetric=True)
+    equal = synthesis(question("3T", max_joints=3, symmetric=True))
     assert [design.order for design in equal.designs] == [d.order for d in small.designs if d.symmetric]
     assert equal.tally.combinations == len(equal.limbs) < small.tally.combinations
 
 
 def test_the_same_question_has_the_same_answer(small):
-    assert answers(synthesis("3T", max_joints=3)) == answers(small)
+    assert answers(synthesis(question("3T", max_joints=3))) == answers(small)
 
 
 def test_steps_are_counted_up_to_the_end():
     seen = []
-    synthesis("3T", max_joints=3, symmetric=True, step=lambda done, whole: seen.append(done / whole))
+    synthesis(question("3T", max_joints=3, symmetric=True), step=lambda done, whole: seen.append(done / whole))
     assert seen == sorted(seen)
     assert seen[0] == 0
     assert 0.8 < seen[-1] < 1
@@ -236,14 +237,14 @@ def test_steps_are_counted_up_to_the_end():
     [("2T1R", 3, "base", "planar_3rrr"), ("2T1R", 3, "leg", "planar_3rpr")],
 )
 def test_planar_mechanisms(motion, joints, actuators, name):
-    found = synthesis(motion, 3, joints, symmetric=True, actuators=actuators)
+    found = synthesis(question(motion, 3, joints, symmetric=True, actuators=actuators))
     (design,) = named(found, name)
     declared = load_topology(name).declared
     assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
 
 
 def test_six_limbs_that_constrain_nothing():
-    found = synthesis("3T3R", max_joints=3, symmetric=True, actuators="leg")
+    found = synthesis(question("3T3R", max_joints=3, symmetric=True, actuators="leg"))
     (design,) = named(found, "gough_stewart")
     declared = load_topology("gough_stewart").declared
     assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
@@ -251,7 +252,7 @@ def test_six_limbs_that_constrain_nothing():
 
 
 def test_four_limbs_for_three_translations_and_a_rotation():
-    found = synthesis("3T1R", 4, 3, symmetric=True)
+    found = synthesis(question("3T1R", 4, 3, symmetric=True))
     assert found.designs
     for design in found.designs[:6]:
         topology = assur.topology([chain.text for chain in design.chains])
@@ -273,18 +274,18 @@ def test_four_limbs_for_three_translations_and_a_rotation():
 )
 def test_misuse_is_refused(words, message):
     with pytest.raises(UsageError, match=message):
-        synthesis(**words)
+        synthesis(question(**words))
 
 
 def test_unknown_names_are_refused():
     with pytest.raises(UnknownNameError, match="2T1R, 2T2R, 2T3R, 3R, 3T, 3T1R, 3T2R, 3T3R"):
-        synthesis("6T")
+        synthesis(question("6T"))
     with pytest.raises(UnknownNameError, match="any, base, leg"):
-        synthesis(actuators="platform")
+        synthesis(question(actuators="platform"))
 
 
 def test_limbs_that_are_too_short_give_nothing():
-    found = synthesis("3T", max_joints=1)
+    found = synthesis(question("3T", max_joints=1))
     assert (found.designs, found.limbs, found.tally.combinations) == ((), (), 0)
 
 
@@ -292,6 +293,6 @@ def test_disagreements_are_collected_and_raised(monkeypatch):
     """The rules are made to speak of another chain."""
     monkeypatch.setattr(limb_motions, "serial", lambda *_: serial(parse_chain("C[x] R[x] R[x]"), "translation"))
     with pytest.raises(RoutesDisagreeError) as raised:
-        synthesis("3T", max_joints=3, symmetric=True)
+        synthesis(question("3T", max_joints=3, symmetric=True))
     assert "P[x] P[y] P[z]: the rules say" in raised.value.message
     assert raised.value.message.count("the rules say") > 5

@@ -1,7 +1,11 @@
-"""Progress on standard error: a bar and times on a terminal, a line elsewhere if it takes long, none with --json."""
+"""Progress on standard error: a bar and times on a terminal, a line elsewhere if it takes long, none with --json.
+
+The line says how far the work is, and about how long the rest takes if it goes on as it began.
+"""
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -32,7 +36,7 @@ def progress(label: str, shared: Plain) -> Iterator[Step]:
         if shared.json:
             yield work.at
         elif not sys.stderr.isatty():
-            with _line(f"{label}: still at work after {LONG:g} s\n"):
+            with _line(work):
                 yield work.at
         else:
             with _bar(label, work) as step:
@@ -66,9 +70,15 @@ def stages(step: Step) -> Step:
 
 
 @contextmanager
-def _line(text: str) -> Iterator[None]:
+def _line(work: WorkStage) -> Iterator[None]:
     """One line on standard error when the block has taken long."""
-    timer = threading.Timer(LONG, sys.stderr.write, (text,))
+
+    def say() -> None:
+        left = math.ceil(LONG * (work.total / work.steps - 1)) if work.steps else 0
+        rest = f", {work.steps} of {work.total} steps done, about {left} s left" if left > 0 else ""
+        sys.stderr.write(f"{work.name}: still at work after {LONG:g} s{rest}\n")
+
+    timer = threading.Timer(LONG, say)
     timer.daemon = True
     timer.start()
     try:

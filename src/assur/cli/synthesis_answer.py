@@ -123,6 +123,8 @@ def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
         rest = f", {unknown} on which only twists can tell" if unknown else ""
         yield f"coupling     {_degrees(tally.coupling_degrees) or 'none'}{rest}"
     yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
+    if synthesis.kept:
+        yield f"kept         {synthesis.kept} families are as an earlier run left them"
     if any(not design.symmetric for design in synthesis.designs):
         listed = data.combinations.listed_of_each_class_of_different_limbs
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."

@@ -130,7 +130,9 @@ def synthesize(
     The best come first: smallest coupling degree, then fewest redundant
     constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
     Before it begins it says how many combinations there are, where these are
-    more than a million, and wants --yes. Ctrl-C prints what was found so far.
+    more than a million, how many families, minutes and megabytes, and wants
+    --yes. Ctrl-C prints what was found so far. What was found is kept in the
+    cache (assur cache), so that the same command goes on where it was ended.
 
     For example:
         assur synthesize --motion 3T --limbs 3 --max-joints 5 --symmetric
@@ -148,7 +150,7 @@ def synthesize(
     from assur.cli.interruption import handing_over
     from assur.cli.paths import planned_folder
     from assur.synthesis.question import question
-    from assur.synthesis.synthesis import Synthesis, TooManyError, synthesis
+    from assur.synthesis.synthesis import Synthesis, synthesis
 
     members = _members(max_members)
     number = None if limbs is None else whole_number(limbs, "--limbs")
@@ -156,47 +158,29 @@ def synthesize(
     count = _count(top)
     folder = planned_folder(toml) if toml else None
     drafts = planned_folder(draft) if draft else None
+    asked = question(
+        motion,
+        number,
+        joints,
+        degrees,
+        symmetric=symmetric,
+        actuators=place,
+        members=members,
+        parasitic=parasitic,
+        idle=idle,
+        passive_slides=passive_p,
+    )
     if explain:
-        asked = question(
-            motion,
-            number,
-            joints,
-            degrees,
-            symmetric=symmetric,
-            actuators=place,
-            members=members,
-            parasitic=parasitic,
-            idle=idle,
-            passive_slides=passive_p,
-        )
         if parasitic or asked.rows:
             raise UsageError("--explain knows no parasitic mechanisms, and none by virtual chains")
         return _explained(explain, actuate, asked, shared)
     if actuate:
         raise UsageError("--actuate without --explain; a synthesis chooses the drives itself", hint="see --actuators")
-    most = None if yes else MILLION
     with (
         handing_over(Synthesis, lambda synthesis: _outcome(synthesis, count, None)),
         progress("synthesis", shared) as step,
     ):
-        try:
-            found = synthesis(
-                motion,
-                number,
-                joints,
-                degrees,
-                symmetric=symmetric,
-                actuators=place,
-                members=members,
-                parasitic=parasitic,
-                idle=idle,
-                passive_slides=passive_p,
-                step=step,
-                most=most,
-            )
-        except TooManyError as error:
-            hint = "ask for fewer joints or for --symmetric ones, or look at all of them with --yes"
-            raise UsageError(error.message, hint=hint) from None
+        found = synthesis(asked, step=step, most=None if yes else MILLION)
     return _outcome(found, count, folder, drafts)
 
 

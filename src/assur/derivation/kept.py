@@ -11,10 +11,9 @@ import hashlib
 import json
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import lru_cache
 from pathlib import Path
 
-from assur.cache import keep, own_content
+from assur.cache import code_digest, keep, own_content
 from assur.derivation.derivation import derive
 from assur.derivation.not_derived import NotDerivedError
 from assur.kinematics.contract.check import problems
@@ -69,8 +68,7 @@ def derived_text(record: MechanismRecord, what: str, write: Callable[[], str], p
     >>> derived_text(load_record("fivebar"), "poem", lambda: "none")
     'none'
     """
-    code = (hashlib.sha256(path.read_bytes()).hexdigest() for path in printers)
-    return _kept(record, " ".join([what, *code]), write)[0]
+    return _kept(record, f"{what} {code_digest(*printers)}", write)[0]
 
 
 def _kept(record: MechanismRecord, what: str, make: Callable[[], str]) -> tuple[str, str]:
@@ -108,12 +106,5 @@ def _that_agrees(record: MechanismRecord) -> str:
 def _name(record: MechanismRecord, what: str) -> str:
     text = record.description.text if record.description else ""
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
-    parts = (VERSION, _code(), json.dumps(own), record.name, text, what)
+    parts = (VERSION, code_digest(Path(__file__).parent), json.dumps(own), record.name, text, what)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"
-
-
-@lru_cache(maxsize=1)
-def _code() -> str:
-    """A digest of the code that derives."""
-    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
-    return hashlib.sha256(b"\0".join(texts)).hexdigest()

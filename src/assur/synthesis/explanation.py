@@ -15,10 +15,11 @@ from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.known_mechanisms import DrivenLimb
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import KINDS, TYPES, LimbType, hybrid_types, limb_types
+from assur.synthesis.plans import Step
 from assur.synthesis.positions import placements, positions
 from assur.synthesis.question import ANY, SynthesisQuestion
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.synthesis import Step, Synthesis, ignored, searched
+from assur.synthesis.synthesis import Synthesis, ignored, synthesis
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.chains import Chain, InnerLoop, Parallelogram
 from assur.topology.notation import plain_text
@@ -198,7 +199,7 @@ def _together(limbs: Sequence[CandidateLimb], asked: SynthesisQuestion) -> Expla
 
 def _listed(key: Key, asked: SynthesisQuestion, step: Step) -> Explanation:
     """Where the search lists it."""
-    found = searched(asked, step, also=(key,))
+    found = synthesis(asked, step=step, also=(key,))
     for number, family in enumerate(found.families, 1):
         for design in family.designs:
             if mechanism(design.limbs) == key:

@@ -18,7 +18,7 @@ ANY = (0, 99)
 
 @dataclass(frozen=True)
 class SynthesisQuestion:
-    """What was asked for; see `synthesis`."""
+    """What was asked for; see `question`."""
 
     motion: RequiredMotion
     limbs: int
@@ -60,10 +60,30 @@ def question(
     idle: bool = False,
     passive_slides: bool = True,
 ) -> SynthesisQuestion:
-    """What is asked of a synthesis, by the arguments of `synthesis`.
+    """What is asked of a synthesis.
+
+    Limbs are series of R, P, C, U and parallelograms with axes parallel or perpendicular to each other, and S in limbs
+    that constrain nothing; U counts as one joint. A series has one actuator. With fewer limbs than freedoms, limbs
+    that begin with an inner loop of a catalogue have two, one in each of its branches.
+
+    Args:
+        motion: "3T", "2T1R", "3T1R" or "3T3R"; T counts translations, R rotations (one of them about z). Or one of
+            `virtual_chains`, as "1T2R" for all of its rows and "1T2R:UP" for one.
+        limbs: number of limbs, by default the number of freedoms; half of it, rounded up, is the least.
+        max_joints: of a limb, on the way through one branch of its inner loop.
+        coupling: least and largest coupling degree, Eq. (6).
+        symmetric: only mechanisms of equal limbs. Without it, also the simplest of those with different limbs.
+        actuators: "base" where the first joint of each limb is driven (R, P or the translation of C), "leg" where it is
+            the first P between two joints that turn, "any" for any one R, P or C.
+        members: of each family of different limbs so many are listed, the simplest, and known ones.
+        parasitic: the motion is that at home, and others come with it: by limbs of three joints at most, whose
+            constraints at home leave it, and a finite motion of each mechanism that is listed. One limb more than the
+            motion has freedoms is passive, and alone constrains the platform.
+        idle: whether limbs that follow a virtual chain may have one R that stays at rest.
+        passive_slides: whether limbs may have P that nothing drives.
 
     Errors:
-        UnknownNameError, UsageError: as `synthesis`.
+        UnknownNameError: another motion. UsageError: another number of limbs, or an empty range.
     """
     name = motion.strip().upper()
     if not parasitic and name.partition(":")[0] not in {*MOTIONS, *VIRTUAL_CHAINS}:

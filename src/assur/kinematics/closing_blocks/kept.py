@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.cache import keep, own_content
+from assur.cache import code_digest, keep, own_content
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
 from assur.kinematics.closing_blocks.columns import ScrewColumns
@@ -32,6 +32,8 @@ from assur.model.mechanism import MechanismRecord
 from assur.version import VERSION
 
 KIND = "modes"
+CODE = (Path(__file__).parent, *(Path(__file__).parents[1] / f"{name}.py" for name in ("related", "starts", "still")))
+"""The code that finds them: another way to choose signs, or assemblies, makes other names."""
 LARGEST = 10_000_000
 """Bytes of an entry; a larger one is none of ours."""
 CALLED = re.compile(r"(name|title)\s*=")
@@ -79,17 +81,8 @@ def _name(record: MechanismRecord, problem: Problem) -> str:
     lines = [*(line for line in head.splitlines() if not CALLED.match(line)), *"".join(tables).splitlines()]
     text = "\n".join(line for line in lines if line.strip() and not line.startswith("#"))
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
-    parts = (VERSION, _code(), problem, json.dumps(own), text)
+    parts = (VERSION, code_digest(*CODE), problem, json.dumps(own), text)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"
-
-
-@lru_cache(maxsize=1)
-def _code() -> str:
-    """A digest of the code that finds them: another way to choose signs, or assemblies, other names."""
-    folder = Path(__file__).parent
-    others = [folder.parent / f"{name}.py" for name in ("related", "starts", "still")]
-    texts = (path.read_bytes() for path in [*sorted(folder.glob("*.py")), *others])
-    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def _data(factor: Factor) -> dict[str, Any]:

@@ -1,0 +1,175 @@
+"""What a synthesis looks at for one motion: limbs by classes, and the sets of classes that could make mechanisms."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import combinations_with_replacement
+
+from assur.synthesis.assembly import MechanismFamily, Range, Sought, assemble
+from assur.synthesis.classes import Class, are_equal, classes, number_of_members
+from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, sets_of_classes
+from assur.synthesis.isomorphism import Key
+from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
+from assur.synthesis.limb_motions import LimbVerdict, verdict
+from assur.synthesis.limbs import hybrid_types, limb_types
+from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
+from assur.synthesis.positions import placements, positions
+from assur.synthesis.question import SynthesisQuestion
+from assur.synthesis.required import RequiredMotion
+from assur.synthesis.virtual_chains import VirtualChain
+
+Step = Callable[[int, int], None]
+"""Called with (steps done, steps in all)."""
+
+
+ASSEMBLED, MOVED, MEGABYTES, LISTED = 0.0025, 0.03, 0.015, 20
+"""What a mechanism costs that is looked at, as measured: seconds by twists at given poses, seconds where it is moved by
+a finite amount, megabytes; and how many of each set are, about."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClassSet:
+    """One class for each limb.
+
+    Attributes:
+        chosen: the classes.
+        members: mechanisms that it stands for.
+        family: makes the family of those that have the motion.
+    """
+
+    chosen: tuple[Class, ...]
+    members: int
+    family: Callable[[], MechanismFamily]
+
+
+@dataclass(frozen=True, eq=False)
+class SearchPlan:
+    """What is looked at for one motion.
+
+    Attributes:
+        classes: its limbs.
+        sets: of their classes.
+        left_out: number of limb types that have not the motion, by the reason.
+        disagreements: limbs on which the two routes differ, in words.
+        cut: whether Ctrl-C came while the limbs were looked at.
+        seconds: that a mechanism takes.
+    """
+
+    classes: tuple[Class, ...]
+    sets: tuple[ClassSet, ...]
+    left_out: Counter[str] = field(default_factory=Counter)
+    disagreements: tuple[str, ...] = ()
+    cut: bool = False
+    seconds: float = ASSEMBLED
+
+    @property
+    def effort(self) -> str:
+        """About how long it takes to look at all sets, and how much memory, on a machine of today."""
+        members = sum(min(some.members, LISTED) for some in self.sets)
+        minutes, megabytes = math.ceil(members * self.seconds / 60), math.ceil(members * MEGABYTES)
+        return f"{len(self.sets)} families, about {minutes} min and {megabytes} MB"
+
+    @property
+    def combinations(self) -> int:
+        """Mechanisms that all sets stand for."""
+        return sum(some.members for some in self.sets)
+
+
+def plans(asked: SynthesisQuestion, step: Step, also: Sequence[Key] = ()) -> Iterator[SearchPlan]:
+    """A plan for each motion with the name that is asked for, made when it is its turn.
+
+    Args:
+        asked: the question.
+        step: called with (limbs looked at, of how many), where these take long.
+        also: canonical forms of mechanisms that are listed however many joints they have, as known ones are.
+    """
+    if asked.parasitic:
+        yield _parasitic(asked)
+    elif asked.rows:
+        yield from (_following(asked, row, also) for row in asked.rows)
+    else:
+        yield _by_directions(asked, step, also)
+
+
+def _by_directions(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) -> SearchPlan:
+    """By limbs whose motion is that of the platform at every point."""
+    types = limb_types(asked.motion, asked.max_joints, asked.actuators)
+    if asked.hybrid:
+        types += hybrid_types(asked.motion, asked.max_joints)
+    types = tuple(filter(asked.wants, types))
+    turns = positions(asked.motion, asked.limbs)
+    verdicts: list[LimbVerdict] = []
+    cut = False
+    try:
+        for done, limb in enumerate(types):
+            step(done, len(types))
+            verdicts.append(verdict(limb, asked.motion, turns))
+    except KeyboardInterrupt:
+        cut = True
+    usable = classes([judged.limb for judged in verdicts if judged.limb])
+    known = (*known_mechanisms(asked.motion), *also)
+    sought = _sought(asked, asked.motion, placements(asked.motion, asked.limbs), known)
+    sets = (
+        _class_set(some, sought)
+        for some in combinations_with_replacement(usable, asked.limbs)
+        if sum(len(members[0].type.driven) for members in some) == asked.motion.dim
+        and (are_equal(some) or not asked.symmetric)
+    )
+    return SearchPlan(
+        usable,
+        () if cut else tuple(sets),
+        Counter(judged.reason for judged in verdicts if judged.reason),
+        tuple(judged.disagreement for judged in verdicts if judged.disagreement),
+        cut,
+    )
+
+
+def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key]) -> SearchPlan:
+    """By limbs that follow a virtual chain."""
+    every = following_types(row, asked.max_joints, asked.actuators, idle=asked.idle)
+    types = tuple(filter(asked.wants, every))
+    limbs = following_limbs(row, types, asked.limbs)
+    usable = classes_by_constraints(limbs, row)
+    known = (*known_mechanisms(row), *also)
+    sets = (
+        _class_set(chosen, dataclasses.replace(_sought(asked, row, (places,), known), reached=True), row.row)
+        for chosen, places in sets_of_classes(usable, row, asked.limbs)
+        if are_equal(chosen) or not asked.symmetric
+    )
+    return SearchPlan(usable, tuple(sets), Counter({"not the motion": len(types) - len(limbs)}))
+
+
+def _parasitic(asked: SynthesisQuestion) -> SearchPlan:
+    """By constraints at home, which leave the motion that is asked for."""
+    every = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.motion.dim)
+    wanted = (tuple(limb for limb in some if asked.wants(limb.type)) for some in every)
+    usable = tuple(some for some in wanted if some)
+    sought = _sought(asked, asked.motion, (), [one.key for one in known_by_directions(asked.motion)])
+    sets = (
+        ClassSet(one.chosen, len(one.chosen[0]) if asked.symmetric else one.members, partial(moved, one, sought))
+        for one in arranged_classes(usable, asked.motion, asked.limbs)
+        if are_equal(one.chosen) or not asked.symmetric
+    )
+    return SearchPlan(usable, tuple(sets), seconds=MOVED)
+
+
+def _sought(
+    asked: SynthesisQuestion, motion: RequiredMotion, placed: tuple[tuple[int, ...], ...], known: Sequence[Key]
+) -> Sought:
+    return Sought(motion, Range(*asked.coupling), placed, asked.symmetric, asked.members, known)
+
+
+def _class_set(chosen: tuple[Class, ...], sought: Sought, row: str = "") -> ClassSet:
+    members = len(chosen[0]) if sought.symmetric else number_of_members(chosen)
+    return ClassSet(chosen, members, partial(_assembled, chosen, sought, row))
+
+
+def _assembled(chosen: tuple[Class, ...], sought: Sought, row: str) -> MechanismFamily:
+    family = assemble(chosen, sought)
+    designs = tuple(dataclasses.replace(design, row=row) for design in family.designs)
+    return dataclasses.replace(family, designs=designs)
