@@ -45,7 +45,8 @@ from assur.results.answers.region import (
 from assur.results.answers.singularity import ConfigurationAnswer, SingularityAnswer
 from assur.results.answers.stiffness import StiffnessAnswer
 from assur.results.answers.sweep import SweepAnswer
-from assur.results.answers.topology import ExplanationAnswer, SynthesisAnswer, TopologyAnswer
+from assur.results.answers.synthesis import ExplanationAnswer, SynthesisAnswer
+from assur.results.answers.topology import TopologyAnswer
 
 ANSWERS: dict[str, tuple[type, ...]] = {
     "aspects": (AspectsAnswer, AspectsOfModes),

@@ -12,7 +12,7 @@ from rich.console import RenderableType
 from assur.cli.output import heading, table
 from assur.cli.topology_answer import shortened
 from assur.results.answers.answer import ABSENT
-from assur.results.answers.topology import DesignDraft, ExplanationAnswer, SynthesisAnswer
+from assur.results.answers.synthesis import DesignDraft, ExplanationAnswer, SynthesisAnswer
 from assur.synthesis.designs import Design
 from assur.synthesis.synthesis import Synthesis
 from assur.topology.poc import PocSet

@@ -15,7 +15,7 @@ from assur.cli.progress import progress
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
-    from assur.results.answers.topology import DesignDraft
+    from assur.results.answers.synthesis import DesignDraft
     from assur.synthesis.limbs import Actuators
     from assur.synthesis.question import SynthesisQuestion
     from assur.synthesis.synthesis import Synthesis
@@ -266,7 +266,7 @@ def _drafted(synthesis: Synthesis, folder: Path, number: int) -> Iterator[Design
     from assur.cli.paths import made
     from assur.errors import AssurError
     from assur.model.registry import load_record
-    from assur.results.answers.topology import DesignDraft
+    from assur.results.answers.synthesis import DesignDraft
     from assur.results.files import write_whole
     from assur.synthesis.drafts import chosen, drafted_text, solved_by
 

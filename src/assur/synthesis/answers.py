@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from assur.model.file.topology_text import topology_text
 from assur.model.topology_description import Declared, TopologyDescription
-from assur.results.answers.topology import (
+from assur.results.answers.synthesis import (
     AskedSynthesis,
     CombinationCounts,
     DesignAnswer,
