@@ -13,7 +13,7 @@ def turning_in_space(solution: AnalyticSolution) -> Iterator[str]:
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
     >>> [*turning_in_space(analytic_solution(load_record("gough_stewart"), "inverse"))]
-    ['rods whose length is sought']
+    ['directions that what is given turns in space', 'rods whose length is sought']
     >>> [*turning_in_space(analytic_solution(load_record("fivebar"), "inverse"))]
     []
     """
