@@ -253,12 +253,11 @@ def test_layers_come_as_boxes_that_show_and_hide_them(window):
 def test_forces_are_shown_where_the_mechanism_rests_and_hidden_while_it_moves(window):
     _wait(lambda: window.settled > 1)
     _press(window.overlays.forces, True)
-    _wait(lambda: len(window.stage._forces) == 2)
-    assert "weight of the platform: 4.69 N" in window.overlays.told.content
+    _wait(lambda: "weight of the platform: 4.69 N" in window.overlays.told.content)  # told after they are drawn
+    assert len(window.stage._forces) == 2
     before = window.overlays.told.content
     _press(window._inputs[0], 120.0)
-    _wait(lambda: window.settled > 0 and window.overlays.told.content != before)
-    assert len(window.stage._forces) == 2
+    _wait(lambda: window.settled > 0 and window.overlays.told.content != before and len(window.stage._forces) == 2)
     assert all(node.opacity for node in window.stage._solids)
     _press(window.overlays.forces, False)
     _wait(lambda: window.stage._forces == [])
