@@ -143,6 +143,20 @@ def test_a_course_says_its_size_and_keeps_to_it(opened):
     assert sum((a - b) ** 2 for a, b in zip(pose, start, strict=True)) ** 0.5 <= 2 * radius + 1e-6
 
 
+def test_a_course_begins_where_it_stands_though_its_first_frame_is_older_than_the_button_pressed(opened):
+    tab = opened("fivebar")
+    tab.evaluate(
+        "() => {const plain = window.plainFrame = window.requestAnimationFrame.bind(window);"
+        "window.requestAnimationFrame = (call) => plain((now) => call(now - 2000))}"
+    )
+    start = tab.evaluate("window.assur.state().pose")
+    tab.get_by_role("button", name="Play").click()
+    tab.wait_for_function("(pose) => window.assur.state().pose.some((it, k) => it !== pose[k])", arg=start)
+    tab.get_by_role("button", name="Pause").click()
+    assert 0 < float(tab.get_by_label("Time", exact=True).input_value()) < 1
+    tab.evaluate("() => {window.requestAnimationFrame = window.plainFrame}")
+
+
 def test_a_course_that_cannot_be_followed_says_why(opened):
     tab = opened("three_upu")
     reason = tab.evaluate("window.assur.toPose([0, 0, 1000]).reason")

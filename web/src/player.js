@@ -121,10 +121,10 @@ export class Player {
     if (!this.prepare()) return;
     this.playing = true;
     this.paint();
-    let last = performance.now();
+    let last = null; // times of frames only: a slow one may have begun before the button was pressed
     const tick = (now) => {
       if (!this.playing) return;
-      this.seek((this.time + Math.min(0.1, (now - last) / 1000) / SECONDS) % 1);
+      this.seek((this.time + Math.min(0.1, (now - (last ?? now)) / 1000) / SECONDS) % 1);
       last = now;
       this.frame = requestAnimationFrame(tick);
     };
