@@ -22,9 +22,17 @@ def _nothing_kept(monkeypatch, tmp_path):
     monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
 
 
-def test_the_answer_is_that_of_the_library(assur_cli):
+@pytest.fixture(scope="module")
+def every(tmp_path_factory):
+    """What a small search finds."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ASSUR_CACHE", str(tmp_path_factory.mktemp("cache")))
+        return plain(answers(synthesis(question("3T", 3, 3, symmetric=True))))
+
+
+def test_the_answer_is_that_of_the_library(assur_cli, every):
     data = assur_cli("synthesize", *SMALL, "--json").json
-    assert data == plain(answers(synthesis(question("3T", 3, 3, symmetric=True))))
+    assert data == every
     assert {"three_crr", "three_rrc"} <= {name for item in data["mechanisms"] for name in item["names"]}
 
 
@@ -34,6 +42,8 @@ def test_a_person_sees_counts_a_ranked_table_reasons_and_known_names(assur_cli):
     assert run.out.startswith("3T: ")
     assert "limb types" in run.out
     assert "3 x C[x] R[x] R[x] (three_crr)" in run.out
+    assert "the front, beaten by none in κ, redundant constraints, joints and zeros" in run.out
+    assert "1: smallest κ, fewest redundant constraints, fewest joints, most zeros" in " ".join(run.out.split())
     assert "one virtual variable, for limbs 1 and 2 close a loop with Δ = +1" in " ".join(run.out.split())
     assert "known mechanisms with these limbs" in run.out
     assert max(map(len, run.out.splitlines())) <= 80
@@ -100,16 +110,25 @@ def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
     assert assur.topology(written[1]).redundant_constraints.collapsed == 3
 
 
-def test_limbs_without_passive_slides_are_kept_where_asked(assur_cli):
-    every, some = (assur_cli("synthesize", *SMALL, *words, "--json").json for words in ((), ("--no-passive-p",)))
+def test_limbs_without_passive_slides_are_kept_where_asked(assur_cli, every):
+    some = assur_cli("synthesize", *SMALL, "--no-passive-p", "--json").json
     assert 0 < some["limb_types"]["with_motion"] < every["limb_types"]["with_motion"]
     for mechanism in some["mechanisms"]:
         for number, chain in enumerate(mechanism["chains"], 1):
             letters = re.findall(r"P\(\w+\)|[A-Z](?=\[)|S", chain)
             driven = {actuated for actuated in mechanism["actuate"] if actuated.startswith(f"{number}.")}
             assert {f"{number}.{place}" for place, letter in enumerate(letters, 1) if letter == "P"} <= driven
-    said = assur_cli("synthesize", *SMALL, "--no-passive-p", "--explain", *("C[x] P[y] R[x]",) * 3).out
-    assert "it has a P that nothing drives" in " ".join(said.split())
+
+
+def test_kinds_of_joints_and_known_or_new_ones_are_kept_where_asked(assur_cli, every):
+    known, new = (assur_cli("synthesize", *SMALL, word, "--json").json for word in ("--known", "--new"))
+    assert 0 < known["found"] < every["found"] == known["found"] + new["found"]
+    assert all(mechanism["names"] for mechanism in known["mechanisms"])
+    assert not any(mechanism["names"] for mechanism in new["mechanisms"])
+    some = assur_cli("synthesize", *SMALL, "--joints", "rp,C", "--json").json
+    assert some["asked"]["joint_kinds"] == ["R", "P", "C"]
+    wanted = [one["chains"] for one in every["mechanisms"] if {*one["joint_kinds"]} <= {"R", "P", "C"}]
+    assert [one["chains"] for one in some["mechanisms"]] == wanted
 
 
 def test_chosen_mechanisms_are_drafted_with_what_solves_them(assur_cli, tmp_path):
@@ -134,6 +153,7 @@ def test_chosen_mechanisms_are_drafted_with_what_solves_them(assur_cli, tmp_path
         (("--coupling", "1..0"), "--coupling 1..0"),
         (("--coupling", "a"), "--coupling: 'a' is not a whole number"),
         (("--actuators", "arm"), "unknown place of the actuators 'arm'; there is: any, base, leg"),
+        (("--joints", "RPQ"), "unknown kind of joint 'Q'; there is: C, P, P(2US), P(4R), P(4S), R, S, U"),
         (("--top", "0"), "--top 0"),
         (("--actuate", "1.1"), "--actuate without --explain"),
         (("--explain", "tripteron", "--actuate", "1.1"), "--actuate beside the name tripteron"),

@@ -15,7 +15,7 @@ def _nothing_kept(monkeypatch, tmp_path):
 @pytest.fixture(scope="session")
 def in_space():
     """Three translations, actuators at the base, equal and different limbs."""
-    return synthesis(question("3T", 3, 5))
+    return synthesis(question("3T", 3, 5, members=3))
 
 
 @pytest.fixture(scope="session")
@@ -27,7 +27,7 @@ def in_legs():
 @pytest.fixture(scope="session")
 def small():
     """Three translations by limbs of three joints."""
-    return synthesis(question("3T", max_joints=3))
+    return synthesis(question("3T", max_joints=3, members=3))
 
 
 @pytest.fixture(scope="session")

@@ -16,10 +16,12 @@ def test_answers_are_plain_data(small):
         "coupling": None,
         "symmetric": False,
         "actuators": "base",
-        "max_members": 20,
+        "max_members": 3,
         "parasitic": False,
         "idle": False,
         "passive_slides": True,
+        "joint_kinds": [],
+        "novelty": "",
     }
     assert data["found"] == len(data["mechanisms"]) == len(small.designs)
     assert data["limb_types"]["with_motion"] == sum(data["limb_types"]["by_poc"].values()) == len(small.limbs)
@@ -41,6 +43,9 @@ def test_a_mechanism_says_all_of_itself(small):
     assert crr["poc"] == {"text": "t³ r⁰", "t": 3, "r": 0, "dim": 3, "dependent": 0}
     assert (crr["dof"], crr["xi"], crr["delta"], crr["coupling_degree"]) == (3, [5, 4], [1, -1], 1)
     assert crr["redundant_constraints"] == {"collapsed": 3, "joint_graph": 3}
+    assert (crr["joint_kinds"], crr["passive_slides"], crr["drives_on_base"]) == (["R", "C"], 0, 3)
+    assert crr["decoupling"] == [[True, False, False], [False, True, False], [False, False, True]]
+    assert (crr["outputs"], crr["zeros"]) == (["x", "y", "z"], 6)
     assert (crr["joints"], crr["symmetric"], crr["mode"], crr["route"]) == (9, True, "home", "both")
 
 

@@ -34,6 +34,20 @@ DROPPED = {
     "idle": (["P[x] P[y] P[z] R[x]"] * 3, {}, "words", "stands still in all of 3T"),
     "motion": (["P[x] U[x,y] S"] * 3, {}, "motion", "leave the platform t³ r³"),
     "coupling": ([CRR] * 3, {"coupling": (0, 0)}, "coupling", "κ = 1, and 0 is asked for"),
+    "passive": (["C[x] P[y] R[x]"] * 3, {"passive_slides": False}, "words", "it has a P that nothing drives"),
+    "kinds": ([CRR] * 3, {"joints": "RPU"}, "words", "it has C, and limbs of R, P, U are asked for"),
+    "known": (
+        [CRR] * 3,
+        {"max_joints": 3, "symmetric": True, "novelty": "new"},
+        "novelty",
+        "the catalogue has a mechanism",
+    ),
+    "new": (
+        ["C[x] R[x] P[y]"] * 3,
+        {"max_joints": 3, "symmetric": True, "novelty": "known"},
+        "novelty",
+        "has no mechanism",
+    ),
     "equal": ([CRR, CRR, "P[x] P[y] P[z]"], {"symmetric": True}, "symmetry", "not equal"),
 }
 

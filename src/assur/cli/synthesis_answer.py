@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from assur.cli.topology_answer import shortened
 from assur.results.answers.answer import ABSENT
 from assur.results.answers.synthesis import DesignDraft, ExplanationAnswer, SynthesisAnswer
 from assur.synthesis.designs import Design
+from assur.synthesis.question import SynthesisQuestion
 from assur.synthesis.synthesis import Synthesis
 from assur.topology.poc import PocSet
 
@@ -26,6 +28,7 @@ FILTERS = {
     "actuation": "the drives that are to determine it",
     "coupling": "the coupling degree",
     "symmetry": "equal limbs",
+    "novelty": "known or new ones",
 }
 """What drops a mechanism, in the order in which it is asked."""
 
@@ -51,6 +54,7 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
     number = len(synthesis.families)
     yield heading(f"{synthesis.asked.motion.name}: {len(numbered)} mechanisms of {synthesis.asked.limbs} limbs")
     yield from _counts(synthesis, data)
+    yield from _front(synthesis, data)
     if synthesis.asked.by_families and number:
         yield ""
         yield heading(f"the best {top} of {number} families" if top < number else f"{number} families")
@@ -59,7 +63,7 @@ def shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | 
     elif numbered:
         yield ""
         yield heading(f"the best {top}" if top < len(numbered) else "ranked")
-        yield _table(numbered[:top])
+        yield _table(numbered[:top], synthesis.asked)
         yield from _reasons(numbered[:top])
     known = [(f"{rank}", design) for rank, design in numbered if design.names]
     if synthesis.asked.by_families:
@@ -91,6 +95,42 @@ def _draft(draft: DesignDraft) -> Iterator[str]:
     yield f"  inverse problem: {draft.inverse}"
 
 
+def _front(synthesis: Synthesis, data: SynthesisAnswer) -> Iterable[RenderableType]:
+    """What no other mechanism beats, and why."""
+    if len(synthesis.designs) < 2:
+        return
+    yield ""
+    yield heading("the front, beaten by none in κ, redundant constraints, joints and zeros")
+    asked, rows = synthesis.asked, []
+    for point in data.front:
+        design = replace(synthesis.designs[point.ranks[0] - 1], names=())
+        limbs = "\n".join([_limbs(design), *(f"({name})" for name in point.names)])
+        family = (str(point.family),) if asked.by_families else ()
+        rows.append((str(point.ranks[0]), *family, str(len(point.ranks)), *_values(design, asked), limbs))
+    columns = ("rank", *(("family",) if asked.by_families else ()), "alike", *_measures(asked), "limbs")
+    yield table(columns, rows, left=("limbs",), wrap=("limbs",))
+    yield from (f"{point.ranks[0]}: {point.reason}." for point in data.front)
+
+
+def _measures(asked: SynthesisQuestion) -> tuple[str, ...]:
+    """What mechanisms are compared by; what is the same for all of them, as asked for, is left out."""
+    base = () if asked.actuators == "base" else ("on base",)
+    return ("κ", "red.", "joints", "zeros", *base, *(("P",) if asked.passive_slides else ()))
+
+
+def _values(design: Design, asked: SynthesisQuestion) -> tuple[str, ...]:
+    """Its values, as `_measures` names them."""
+    values = {
+        "κ": design.coupling_degree,
+        "red.": design.redundant.collapsed,
+        "joints": design.joints,
+        "zeros": design.zeros,
+        "on base": design.drives_on_base,
+        "P": design.passive_slides,
+    }
+    return tuple(str(values[name]) for name in _measures(asked))
+
+
 def _families(synthesis: Synthesis, data: SynthesisAnswer, top: int) -> RenderableType:
     """One row for each family, with the limbs of its best mechanism."""
     rows = []
@@ -98,9 +138,9 @@ def _families(synthesis: Synthesis, data: SynthesisAnswer, top: int) -> Renderab
         best = family.designs[0]
         limbs = "\n".join([_limbs(best), *(f"({name})" for name in shown.names)])
         limbs += f"\n(as {best.row})" if len(synthesis.asked.rows) > 1 else ""
-        numbers = (shown.rank, shown.members, shown.coupling_degree, shown.redundant_constraints, best.joints)
-        rows.append((*map(str, numbers), " ".join(map(str, best.xi)), limbs))
-    columns = ("rank", "members", "κ", "red.", "joints", "ξ", "simplest")
+        values = _values(best, synthesis.asked)
+        rows.append((str(shown.rank), str(shown.members), *values, " ".join(map(str, best.xi)), limbs))
+    columns = ("family", "members", *_measures(synthesis.asked), "ξ", "simplest")
     return table(columns, rows, left=("simplest",), wrap=("simplest",))
 
 
@@ -134,21 +174,18 @@ def _degrees(counts: Counter[int]) -> str:
     return ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(counts.items()))
 
 
-def _table(numbered: Sequence[Numbered]) -> RenderableType:
+def _table(numbered: Sequence[Numbered], asked: SynthesisQuestion) -> RenderableType:
     rows = [
         (
             str(rank),
-            str(design.coupling_degree),
-            str(design.redundant.collapsed),
-            str(design.joints),
-            str(design.dof),
+            *_values(design, asked),
             " ".join(map(str, design.xi)),
             _limbs(design),
             "\n".join(str(poc) for poc in _pocs(design)),
         )
         for rank, design in numbered
     ]
-    columns = ("rank", "κ", "red.", "joints", "F", "ξ", "limbs", "t r")
+    columns = ("rank", *_measures(asked), "ξ", "limbs", "t r")
     return table(columns, rows, left=("limbs", "t r"), wrap=("limbs",))
 
 

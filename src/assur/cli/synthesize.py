@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -77,6 +78,22 @@ def synthesize(
             help="Limbs may have P that nothing drives; they may if left out. A parallelogram is none.",
         ),
     ] = True,
+    joints: Annotated[
+        str,
+        Parameter(
+            metavar="LETTERS",
+            help="Kinds of joints that limbs are made of, of R, P, C, U, S, P(4R), P(4S), P(2US), as RPUS; all if left"
+            " out. A P along an R that nothing drives is written C.",
+        ),
+    ] = "",
+    known: Annotated[
+        bool | None,
+        Parameter(
+            name="--known",
+            negative="--new",
+            help="List only mechanisms of the catalogue, or only others; all if left out.",
+        ),
+    ] = None,
     symmetric: Annotated[bool, Parameter(help="Only mechanisms of equal limbs.")] = False,
     actuators: Annotated[
         str,
@@ -129,6 +146,8 @@ def synthesize(
     ones are moved by a finite amount; rules and twists agree where rules answer.
     The best come first: smallest coupling degree, then fewest redundant
     constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
+    The front before them is what no other beats in κ, redundant constraints,
+    joints and zeros, pairs of an output and a drive that do not touch.
     Before it begins it says how many combinations there are, where these are
     more than a million, how many families, minutes and megabytes, and wants
     --yes. Ctrl-C prints what was found so far. What was found is kept in the
@@ -145,6 +164,7 @@ def synthesize(
         assur synthesize --motion 1T2R:UP --top 5
         assur synthesize --limbs 2 --coupling 0..1 --no-passive-p --draft found
         assur synthesize --limbs 2 --explain tripteron
+        assur synthesize --symmetric --joints RPU --new
         assur synthesize --motion 2T1R --explain "R[z] R[z] R[z]" "P[x] S" S
     """
     from assur.cli.interruption import handing_over
@@ -154,14 +174,14 @@ def synthesize(
 
     members = _members(max_members)
     number = None if limbs is None else whole_number(limbs, "--limbs")
-    joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
+    longest, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
     folder = planned_folder(toml) if toml else None
     drafts = planned_folder(draft) if draft else None
     asked = question(
         motion,
         number,
-        joints,
+        longest,
         degrees,
         symmetric=symmetric,
         actuators=place,
@@ -169,6 +189,8 @@ def synthesize(
         parasitic=parasitic,
         idle=idle,
         passive_slides=passive_p,
+        joints=_kinds(joints),
+        novelty="" if known is None else "known" if known else "new",
     )
     if explain:
         if parasitic or asked.rows:
@@ -220,6 +242,15 @@ def _range(text: str) -> tuple[int, int]:
     if not 0 <= first <= last:
         raise UsageError(f"--coupling {text.strip()} is empty or negative", hint="give it as 0..1, or as one number")
     return (first, last)
+
+
+def _kinds(text: str) -> tuple[str, ...]:
+    """Kinds of joints, with or without commas between.
+
+    >>> _kinds("RPS"), _kinds("r, P(4R)")
+    (('R', 'P', 'S'), ('R', 'P(4R)'))
+    """
+    return tuple(re.findall(r"[A-Z0-9](?:\([^)]*\))?|[^\s,A-Z0-9]", text.upper()))
 
 
 def _place(text: str) -> Actuators:

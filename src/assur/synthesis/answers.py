@@ -12,6 +12,7 @@ from assur.results.answers.synthesis import (
     CombinationCounts,
     DesignAnswer,
     DesignFamily,
+    DesignFront,
     DesignLimb,
     ExplanationAnswer,
     LimbTypeCounts,
@@ -19,6 +20,7 @@ from assur.results.answers.synthesis import (
 )
 from assur.synthesis.designs import Design
 from assur.synthesis.explanation import Explanation
+from assur.synthesis.front import FrontPoint, front
 from assur.synthesis.known_mechanisms import DrivenLimb
 from assur.synthesis.positions import ABOUT_Z, AS_WRITTEN, in_words
 from assur.synthesis.question import ANY, SynthesisQuestion
@@ -68,6 +70,21 @@ def answers(synthesis: Synthesis, top: int | None = None) -> SynthesisAnswer:
             )
             for rank, family in enumerate(synthesis.families, 1)
         ),
+        front=tuple(_front(point, families[id(point.design)], synthesis) for point in front(synthesis.designs)),
+    )
+
+
+def _front(point: FrontPoint, family: int, synthesis: Synthesis) -> DesignFront:
+    design = point.design
+    return DesignFront(
+        ranks=point.ranks,
+        family=family,
+        coupling_degree=design.coupling_degree,
+        redundant_constraints=design.redundant.collapsed,
+        joints=design.joints,
+        zeros=design.zeros,
+        names=tuple(name for rank in point.ranks for name in synthesis.designs[rank - 1].names),
+        reason=point.reason,
     )
 
 
@@ -108,6 +125,8 @@ def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
         asked.parasitic,
         asked.idle,
         asked.passive_slides,
+        asked.joints,
+        asked.novelty,
     )
 
 
@@ -139,6 +158,12 @@ def _design(rank: int, family: int, design: Design) -> DesignAnswer:
         coupling_degree=design.coupling_degree,
         redundant_constraints=design.redundant,
         joints=design.joints,
+        joint_kinds=design.joint_kinds,
+        passive_slides=design.passive_slides,
+        drives_on_base=design.drives_on_base,
+        outputs=design.decoupling.outputs,
+        decoupling=design.decoupling.depends,
+        zeros=design.zeros,
         route=design.known.route,
         reason=design.reason,
     )

@@ -185,7 +185,7 @@ def _outcome(
     if difference:
         return Rejected(disagreement=f"{text}: {difference}")
     degree = twists.loops.coupling_degree
-    if degree is None or degree not in sought.degrees:
+    if degree is None or degree not in sought.degrees or twists.decoupling is None:
         return Rejected()
     return Design(
         limbs=tuple(limbs),
@@ -193,6 +193,7 @@ def _outcome(
         chains=parse_chains(chains),
         known=_known(rules, motion),
         loops=twists.loops,
+        decoupling=twists.decoupling,
         dof=twists.dof,
         mode="translation" if not motion.rotations and any(limb.needs_mode for limb in limbs) else "home",
     )

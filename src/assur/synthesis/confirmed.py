@@ -11,6 +11,7 @@ import numpy as np
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.chains import BASE, PLATFORM
 from assur.topology.counting.coupling import Decomposition, coupling
+from assur.topology.counting.decoupling import Decoupling, by_jacobian
 from assur.topology.screws.edges import Edge, closure, input_columns, rank
 
 
@@ -32,6 +33,11 @@ class Confirmed:
     def loops(self) -> Decomposition:
         """Loops in the order that attains the coupling degree."""
         return coupling(self.edges)
+
+    @cached_property
+    def decoupling(self) -> Decoupling | None:
+        """Which output depends on which drive; none where the drives do not fix the platform."""
+        return by_jacobian(self.edges, BASE, PLATFORM)
 
 
 def confirmed(limbs: Sequence[CandidateLimb], places: Sequence[int]) -> Confirmed:

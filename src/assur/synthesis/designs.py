@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from assur.model.topology_description import Mode
 from assur.results.answers.topology import Loop, RedundantConstraints
 from assur.synthesis.limb_motions import CandidateLimb
+from assur.synthesis.limbs import JOINT_KINDS
 from assur.topology.chains import Chain
 from assur.topology.counting.coupling import Decomposition
+from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Known
 
 PARALLELOGRAM_REDUNDANT = 3
@@ -27,6 +29,7 @@ class Design:
         chains: the limbs as they stand, joints named through the mechanism.
         known: the platform's POC set, and by which routes.
         loops: in the order that attains the coupling degree.
+        decoupling: which output depends on which drive, where the platform goes.
         dof: F of Eq. (3), all of it the platform's.
         mode: "translation" where the limbs keep the platform from turning only once it does not turn, else "home".
         names: known mechanisms with the same limbs.
@@ -38,6 +41,7 @@ class Design:
     chains: tuple[Chain, ...]
     known: Known
     loops: Decomposition
+    decoupling: Decoupling
     dof: int
     mode: Mode
     names: tuple[str, ...] = ()
@@ -69,6 +73,27 @@ class Design:
         collapsed = sum(loop.redundant_constraints for loop in self.loops.loops)
         inside = PARALLELOGRAM_REDUNDANT * sum(limb.type.hinged for limb in self.limbs)
         return RedundantConstraints(collapsed, collapsed + inside)
+
+    @property
+    def zeros(self) -> int:
+        """How many pairs of an output and a drive have nothing to do with each other."""
+        return sum(not used for row in self.decoupling.depends for used in row)
+
+    @property
+    def drives_on_base(self) -> int:
+        """Number of driven joints that stand on the base."""
+        return sum(place in limb.type.on_base for limb in self.limbs for place in limb.type.driven)
+
+    @property
+    def passive_slides(self) -> int:
+        """Number of P that nothing drives; neither a C nor a parallelogram is one."""
+        return sum(limb.type.passive_slides for limb in self.limbs)
+
+    @property
+    def joint_kinds(self) -> tuple[str, ...]:
+        """Kinds of its joints, in the order of the notation."""
+        used = {kind for limb in self.limbs for kind in limb.type.joint_kinds}
+        return tuple(kind for kind in JOINT_KINDS if kind in used)
 
     @property
     def symmetric(self) -> bool:

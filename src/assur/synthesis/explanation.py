@@ -25,11 +25,12 @@ from assur.topology.chains import Chain, InnerLoop, Parallelogram
 from assur.topology.notation import plain_text
 from assur.topology.symbolic.refusals import Refusal
 
-Filter = Literal["", "limbs", "drives", "words", "limb", "motion", "actuation", "coupling", "symmetry"]
+Filter = Literal["", "limbs", "drives", "words", "limb", "motion", "actuation", "coupling", "symmetry", "novelty"]
 """What drops a mechanism, in this order; nothing where it is listed.
 
 The number of limbs, that of drives, which limbs are written at all, which of them have the motion, what they leave the
-platform together, whether the drives fix it, its coupling degree, and whether limbs must be equal.
+platform together, whether the drives fix it, its coupling degree, whether limbs must be equal, and whether known
+mechanisms are listed, or new ones.
 """
 
 
@@ -145,9 +146,8 @@ def _written(limb: DrivenLimb, asked: SynthesisQuestion) -> LimbType | str:
         limb_types(motion, asked.max_joints, asked.actuators) if not loop else hybrid_types(motion, asked.max_joints)
     )
     written = {limb_type.key: limb_type for limb_type in types}.get(key)
-    if written and not asked.wants(written):
-        return "it has a P that nothing drives, and limbs without are asked for"
-    return written or _not_written(limb, asked, key)
+    unwanted = asked.unwanted(written) if written else ""
+    return unwanted or written or _not_written(limb, asked, key)
 
 
 def _loops(motion: RequiredMotion) -> set[Key]:
@@ -206,6 +206,10 @@ def _listed(key: Key, asked: SynthesisQuestion, step: Step) -> Explanation:
                 rank = found.designs.index(design) + 1
                 said = f"rank {rank}, in family {number} of {len(found.families)}, which has {family.members} members"
                 return Explanation("", said, found, design)
+    if asked.novelty:
+        known = "the catalogue has a mechanism with these limbs, and only others are asked for"
+        new = "the catalogue has no mechanism with these limbs, and only those that it has are asked for"
+        return Explanation("novelty", known if asked.novelty == "new" else new)
     raise RoutesDisagreeError(
         "the search does not list a mechanism that none of its filters drops", hint="please report these chains"
     )

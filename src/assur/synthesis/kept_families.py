@@ -26,6 +26,7 @@ from assur.synthesis.plans import ClassSet
 from assur.synthesis.question import SynthesisQuestion
 from assur.synthesis.tally import Tally
 from assur.topology.counting.coupling import Decomposition
+from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chains
 from assur.version import VERSION
@@ -49,6 +50,7 @@ class KeptDesign:
     known: Known
     loops: tuple[Loop, ...]
     assur_chains: tuple[AssurChain, ...]
+    decoupling: Decoupling
     dof: int
     mode: Mode
     row: str
@@ -143,6 +145,7 @@ def _kept_design(design: Design) -> KeptDesign:
         design.known,
         design.loops.loops,
         design.loops.assur_chains,
+        design.decoupling,
         design.dof,
         design.mode,
         design.row,
@@ -159,6 +162,7 @@ def _of(kept: KeptFamily, some: ClassSet) -> MechanismFamily:
             parse_chains(one.chains),
             one.known,
             Decomposition(one.loops, one.assur_chains),
+            one.decoupling,
             one.dof,
             one.mode,
             row=one.row,

@@ -27,6 +27,7 @@ from assur.topology.directions import EXACT, NAMED
 from assur.topology.screws.recognition import recognised
 
 
+@cache
 def known_mechanisms(motion: RequiredMotion) -> Mapping[Key, tuple[str, ...]]:
     """Names of built-in mechanisms by the canonical form of their limbs; how the limbs are placed makes no difference.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import permutations, product
+from itertools import accumulate, permutations, product
 from typing import Literal
 
 import numpy as np
@@ -43,6 +43,9 @@ FREEDOMS_OF = {letter: joint.freedoms for letter, joint in TYPES.items()}
 
 KINDS: dict[str, ParallelogramKind] = {"A": "4R", "B": "4S", "D": "2US"}
 
+JOINT_KINDS = (*TYPES, *(f"P({kind})" for kind in KINDS.values()))
+"""What limbs are made of, as it is written."""
+
 _Group = tuple[str, str]
 """A joint and its axes: ("R", "x"), ("U", "xy"), ("A", "z") for a P(4R), ("S", "")."""
 
@@ -70,6 +73,19 @@ class LimbType:
     def freedoms(self) -> int:
         """Sum of f."""
         return sum(joint.freedoms for joint in self.chain.joints)
+
+    @property
+    def joint_kinds(self) -> frozenset[str]:
+        """Kinds of its joints, of `JOINT_KINDS`."""
+        return frozenset(
+            f"P({joint.kind})" if isinstance(joint, Parallelogram) else joint.type.letter for joint in self.chain.joints
+        )
+
+    @property
+    def on_base(self) -> tuple[int, ...]:
+        """Indices of the joints that stand on the base: the first one, or the first one of each branch."""
+        lengths = [len(branch) for branch in self.loop.branches[:-1]] if self.loop else []
+        return tuple(accumulate(lengths, initial=0))
 
     @property
     def driven_columns(self) -> tuple[int, ...]:
@@ -176,8 +192,7 @@ def _hybrid_candidates(motion: RequiredMotion, max_joints: int) -> Iterator[tupl
     always = _always(motion)
     for row in INNER_LOOPS:
         room = max_joints - max(map(len, row.loop.branches))
-        starts = np.cumsum([0, *map(len, row.loop.branches[:-1])])
-        driven = tuple(int(start) for start in starts)
+        driven = tuple(accumulate((len(branch) for branch in row.loop.branches[:-1]), initial=0))
         for turn, loop in row.turned_loops(motion):
             begun = row.turned_by(turn)
             for freedoms in range(max(0, motion.dim - row.freedoms), FREE - row.freedoms):

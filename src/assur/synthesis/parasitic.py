@@ -210,13 +210,13 @@ def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: 
         return Rejected(disagreement=error.message)
     if not _is_parasitic(topology, sought.motion):
         return Rejected()
-    if topology.coupling_degree is None:
+    if topology.coupling_degree is None or topology.decoupling is None:
         return Rejected(unfixed=True)
     if topology.coupling_degree not in sought.degrees:
         return Rejected()
     known = topology.known
     loops = Decomposition(topology.loops, topology.assur_chains)
-    return Design(tuple(limbs), arranged.places, chains, known, loops, topology.dof, "home")
+    return Design(tuple(limbs), arranged.places, chains, known, loops, topology.decoupling, topology.dof, "home")
 
 
 def _keeps_its_freedoms(linkage: Linkage, motion: RequiredMotion) -> bool:

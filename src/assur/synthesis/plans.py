@@ -27,7 +27,7 @@ Step = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
 
-ASSEMBLED, MOVED, MEGABYTES, LISTED = 0.0025, 0.03, 0.015, 20
+ASSEMBLED, MOVED, MEGABYTES, LISTED = 0.003, 0.03, 0.015, 20
 """What a mechanism costs that is looked at, as measured: seconds by twists at given poses, seconds where it is moved by
 a finite amount, megabytes; and how many of each set are, about."""
 

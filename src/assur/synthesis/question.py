@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import get_args
+from typing import Literal, get_args
 
 from assur.errors import UnknownNameError, UsageError
 from assur.synthesis.assembly import MEMBERS
-from assur.synthesis.limbs import Actuators, LimbType
+from assur.synthesis.limbs import JOINT_KINDS, Actuators, LimbType
 from assur.synthesis.required import MOTIONS, PARASITIC, RequiredMotion, motion_named
 from assur.synthesis.virtual_chains import VIRTUAL_CHAINS, VirtualChain, rows_named
+
+Novelty = Literal["", "known", "new"]
+"""Whether mechanisms of the catalogue are listed alone, or all others; without either all are."""
 
 ANY = (0, 99)
 """Every coupling degree."""
@@ -31,10 +35,21 @@ class SynthesisQuestion:
     rows: tuple[VirtualChain, ...] = ()
     idle: bool = False
     passive_slides: bool = True
+    joints: tuple[str, ...] = ()
+    novelty: Novelty = ""
+
+    def unwanted(self, limb: LimbType) -> str:
+        """Why a limb is not among those that are asked for, by its joints alone; empty where it is."""
+        others = sorted(limb.joint_kinds.difference(self.joints)) if self.joints else []
+        if others:
+            return f"it has {' and '.join(others)}, and limbs of {', '.join(self.joints)} are asked for"
+        if limb.passive_slides and not self.passive_slides:
+            return "it has a P that nothing drives, and limbs without are asked for"
+        return ""
 
     def wants(self, limb: LimbType) -> bool:
         """Whether a limb is among those that are asked for, by its joints alone."""
-        return self.passive_slides or not limb.passive_slides
+        return not self.unwanted(limb)
 
     @property
     def hybrid(self) -> bool:
@@ -59,6 +74,8 @@ def question(
     parasitic: bool = False,
     idle: bool = False,
     passive_slides: bool = True,
+    joints: Collection[str] = (),
+    novelty: Novelty = "",
 ) -> SynthesisQuestion:
     """What is asked of a synthesis.
 
@@ -81,9 +98,11 @@ def question(
             motion has freedoms is passive, and alone constrains the platform.
         idle: whether limbs that follow a virtual chain may have one R that stays at rest.
         passive_slides: whether limbs may have P that nothing drives.
+        joints: kinds of joints that limbs are made of, of `JOINT_KINDS`; all where it is empty.
+        novelty: whether only mechanisms of the catalogue are listed, or all others.
 
     Errors:
-        UnknownNameError: another motion. UsageError: another number of limbs, or an empty range.
+        UnknownNameError: another motion, or kind of joint. UsageError: another number of limbs, or an empty range.
     """
     name = motion.strip().upper()
     if not parasitic and name.partition(":")[0] not in {*MOTIONS, *VIRTUAL_CHAINS}:
@@ -121,6 +140,9 @@ def question(
         raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
     if actuators not in get_args(Actuators):
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
+    for kind in joints:
+        if kind not in JOINT_KINDS:
+            raise UnknownNameError("kind of joint", kind, JOINT_KINDS)
     if members < 1:
         raise UsageError(f"{members} members of each family; one at least")
     return SynthesisQuestion(
@@ -135,4 +157,6 @@ def question(
         rows=rows,
         idle=idle,
         passive_slides=passive_slides,
+        joints=tuple(kind for kind in JOINT_KINDS if kind in joints),
+        novelty=novelty,
     )

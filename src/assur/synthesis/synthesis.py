@@ -16,7 +16,7 @@ from assur.synthesis.kept_families import KeptFamilies, kept_families
 from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.plans import SearchPlan, Step, plans
-from assur.synthesis.question import SynthesisQuestion
+from assur.synthesis.question import Novelty, SynthesisQuestion
 from assur.synthesis.tally import Tally, total
 from assur.topology.agreement import RoutesDisagreeError
 
@@ -78,7 +78,7 @@ def synthesis(
         [('three_crr',)]
     """
     parts = 2 * (len(asked.rows) or 1)
-    with kept_families(asked, also) as kept:
+    with kept_families(dataclasses.replace(asked, novelty=""), also) as kept:
         search = _Search(asked, kept)
         try:
             for number, plan in enumerate(plans(asked, _part(step, 0, parts), also)):
@@ -126,13 +126,14 @@ class _Search:
         if disagreements:
             raise RoutesDisagreeError("; ".join(disagreements), hint="assur has an error; please report these chains")
         names = _names(self.asked)
-        named = [_named(family, names) for family in self.families if family.designs]
+        named = [_named(family, names, self.asked.novelty) for family in self.families]
+        kept = [family for family in named if family.designs]
         return Synthesis(
             asked=self.asked,
             limbs=tuple(limb for plan in self.plans for members in plan.classes for limb in members),
             left_out=sum((plan.left_out for plan in self.plans), Counter()),
             tally=tally,
-            families=tuple(sorted(named, key=lambda family: family.designs[0].order)),
+            families=tuple(sorted(kept, key=lambda family: family.designs[0].order)),
             kept=self.kept.reread,
         )
 
@@ -154,6 +155,8 @@ def _names(asked: SynthesisQuestion) -> Callable[[Design], tuple[str, ...]]:
     return lambda design: known.get(mechanism(design.limbs), ())
 
 
-def _named(family: MechanismFamily, names: Callable[[Design], tuple[str, ...]]) -> MechanismFamily:
+def _named(family: MechanismFamily, names: Callable[[Design], tuple[str, ...]], novelty: Novelty) -> MechanismFamily:
+    """The family with the names of its mechanisms, of which only known ones are kept, or only new ones."""
     designs = (dataclasses.replace(design, names=names(design)) for design in family.designs)
-    return dataclasses.replace(family, designs=tuple(designs))
+    kept = (design for design in designs if not novelty or bool(design.names) == (novelty == "known"))
+    return dataclasses.replace(family, designs=tuple(kept))

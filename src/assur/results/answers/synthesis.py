@@ -11,7 +11,10 @@ from assur.results.answers.topology import Names, RedundantConstraints, WrittenP
 
 @dataclass(frozen=True)
 class AskedSynthesis:
-    """What was asked of a synthesis; `coupling` is null where any degree would do, `rows` are virtual chains."""
+    """What was asked of a synthesis; `coupling` is null where any degree would do, `rows` are virtual chains.
+
+    `joint_kinds` is empty where limbs may be made of all, `novelty` where known and new mechanisms are listed.
+    """
 
     motion: str
     rows: Names
@@ -24,6 +27,8 @@ class AskedSynthesis:
     parasitic: bool
     idle: bool
     passive_slides: bool
+    joint_kinds: Names
+    novelty: str
 
 
 @dataclass(frozen=True)
@@ -60,7 +65,10 @@ class DesignLimb:
 
 @dataclass(frozen=True)
 class DesignAnswer:
-    """A mechanism with the motion, the rank of its family, and which of the motions with that name it has."""
+    """A mechanism with the motion, the rank of its family, and which of the motions with that name it has.
+
+    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `actuate`, and `zeros` where not.
+    """
 
     rank: int
     family: int
@@ -78,6 +86,12 @@ class DesignAnswer:
     coupling_degree: int
     redundant_constraints: RedundantConstraints
     joints: int
+    joint_kinds: Names
+    passive_slides: int
+    drives_on_base: int
+    outputs: Names
+    decoupling: tuple[tuple[bool, ...], ...]
+    zeros: int
     route: str
     reason: str
 
@@ -120,13 +134,33 @@ class DesignFamily:
 
 
 @dataclass(frozen=True)
+class DesignFront:
+    """Mechanisms of the same worth that no other beats: none is better in κ, redundant constraints, joints or zeros of
+    the decoupling, and as good in the rest.
+
+    Attributes:
+        ranks: of all of them, the best first.
+        family: that of the best.
+    """
+
+    ranks: tuple[int, ...]
+    family: int
+    coupling_degree: int
+    redundant_constraints: int
+    joints: int
+    zeros: int
+    names: Names
+    reason: str
+
+
+@dataclass(frozen=True)
 class ExplanationAnswer(Answer):
     """Why a synthesis does not list a mechanism, or where it does.
 
     Attributes:
         chains: its limbs.
         dropped_by: the first filter that drops it, "limbs", "drives", "words", "limb", "motion", "actuation",
-            "coupling" or "symmetry"; null where it is listed.
+            "coupling", "symmetry" or "novelty"; null where it is listed.
         rank: among the mechanisms, and `family` that of its family; null where it is not listed.
         listed_as: its limbs as they stand in the list; none where it is not listed.
     """
@@ -143,7 +177,10 @@ class ExplanationAnswer(Answer):
 
 @dataclass(frozen=True)
 class SynthesisAnswer(Answer):
-    """The mechanisms with a motion, the best first, and their families; `written` are their topology files."""
+    """The mechanisms with a motion, the best first, and their families; `written` are their topology files.
+
+    `front` are those that no other beats.
+    """
 
     asked: AskedSynthesis
     positions: str
@@ -152,5 +189,6 @@ class SynthesisAnswer(Answer):
     count: int = named("found")
     mechanisms: tuple[DesignAnswer, ...] = ()
     families: tuple[DesignFamily, ...] = ()
+    front: tuple[DesignFront, ...] = ()
     written: Names | Absent = ABSENT
     drafts: tuple[DesignDraft, ...] | Absent = ABSENT
