@@ -183,8 +183,8 @@ def _notes(record: Mechanism, asked: MotionForces) -> Iterable[str]:
             largest = int(near[np.argmax(asked.answer.growth[near])])
             grown = f"{asked.answer.growth[largest]:.3g} N or N m of an actuator per newton at the platform"
             yield f"near a singularity at {asked.times[largest]:.6g} s: {grown}"
-        if asked.spins_open:
-            yield "rods weigh beside the axes about which nothing drives them: forces are those of one spin of many"
+        if asked.swings:
+            yield "rods weigh beside the axes about which nothing drives them: they swing, from where the motion begins"
         if asked.answer.preload.shape[-1]:
             yield "more drives than freedoms: the forces of least norm; preload may be added"
     yield from masses(record).notes

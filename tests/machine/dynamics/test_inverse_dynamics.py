@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import make_interp_spline
 
 import assur
 from assur.kinematics.pose import pose_of
@@ -15,6 +16,11 @@ from assur.model.machine_data import Actuator
 @pytest.fixture(scope="module")
 def zeng():
     return assur.load("zeng2019")
+
+
+@pytest.fixture(scope="module")
+def delta():
+    return assur.load("delta_4s")
 
 
 @pytest.fixture(scope="module")
@@ -45,14 +51,24 @@ def test_mean_squares_of_a_sine_and_shares_of_limits(zeng):
     assert shares.force[0] < rubbing.force[0] <= shares.force[0] + 0.2 + 1e-12
 
 
-def test_rods_that_weigh_on_their_axes_leave_nothing_open():
-    delta = assur.load("delta_4s")
+def test_rods_that_weigh_on_their_axes_do_not_swing(delta):
     around = harmonic(delta, [0, 0, -0.9], [0.1, 0, 0], 6.0, count=4)
-    assert not delta.dynamics(around).spins_open
-    rods = {name: replace(link, profile=None, mass=0.1, centre=np.array([0.01, 0.0, -0.6])) if "rod" in name else link
+    assert not delta.dynamics(around).swings
+
+
+def test_rods_that_weigh_beside_their_axes_swing_and_keep_the_books_of_energy(delta):
+    """What the actuators do is what the energies change by: the swing of the rods among them."""
+    rods = {name: replace(link, profile=None, mass=0.1, centre=np.array([0.02, 0.0, -0.6])) if "rod" in name else link
             for name, link in delta.machine.links.items()}  # fmt: skip
     beside = assur.Mechanism(**vars(replace(delta, machine=replace(delta.machine, links=rods))))
-    assert beside.dynamics(around).spins_open
+    asked = beside.dynamics(harmonic(beside, [0, 0, -0.9], [0.1, 0, 0], 20.0, t_end=0.02, count=5))
+    work = make_interp_spline(asked.times, asked.answer.power, k=4).integrate(asked.times[0], asked.times[-1])
+    energy = asked.kinetic_energy + asked.potential_energy
+    assert asked.swings
+    assert work == pytest.approx(energy[-1] - energy[0], rel=1e-5)
+    spun = np.abs(asked.answer.joint_rates - asked.answer.motion.rates(asked.velocities)).max(axis=1)
+    assert spun[0] == pytest.approx(0.0, abs=1e-9)
+    assert spun[-1] > 0.01
 
 
 def test_standing_still_is_statics(zeng):

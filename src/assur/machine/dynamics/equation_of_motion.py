@@ -42,15 +42,20 @@ class EquationOfMotion:
         """Of the joints (N, n) at rates (N, n), for forces (N, d) of the actuators, in SI units."""
         inertia = motion.inertia
         closing = motion.second(rates, np.zeros((len(rates), motion.pose.shape[1])))
-        weight = inertia.weight if self.load.gravity else 0.0
-        pushed = np.einsum("nkj,nk->nj", motion.platform, self.load.wrench_at(motion.point)) + forces @ motion.drives
-        needed = inertia.needed(rates, closing) + weight - pushed
+        needed = self.needed(motion, rates, closing) - forces @ motion.drives
         across = np.swapaxes(motion.free, -1, -2)
         sizes, vectors = np.linalg.eigh(across @ inertia.matrix @ motion.free)
         kept = sizes > MASSLESS * sizes[:, -1:]
         moved = np.swapaxes(vectors, -1, -2) @ (across @ needed[..., None])
         moved *= np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)[..., None]
         return np.asarray(closing - (motion.free @ (vectors @ moved))[..., 0])
+
+    def needed(self, motion: ClosedMotion, rates: FloatArray, second: FloatArray) -> FloatArray:
+        """M u' + h + g - J^T w (N, n) at rates and accelerations (N, n): what is left to the actuators."""
+        inertia = motion.inertia
+        weight = inertia.weight if self.load.gravity else 0.0
+        pushed = np.einsum("nkj,nk->nj", motion.platform, self.load.wrench_at(motion.point))
+        return np.asarray(inertia.needed(rates, second) + weight - pushed)
 
     def power(self, motion: ClosedMotion, rates: FloatArray, forces: FloatArray) -> FloatArray:
         """Of the actuators and the load (N,) in W."""

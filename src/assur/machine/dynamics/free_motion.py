@@ -6,42 +6,32 @@ that would open them are left out. An event of the watch ends it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import DOP853
 
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import checked_poses, drives_of
-from assur.kinematics.closure import assemble, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.acceleration import joints_in_mode
 from assur.kinematics.status import Status
-from assur.kinematics.turns import joint_units, whole_turns_less
-from assur.kinematics.validation.check import METRES
 from assur.machine.dynamics.departure import Departure, not_begun
 from assur.machine.dynamics.equation_of_motion import EquationOfMotion
 from assur.machine.dynamics.release import Release
-from assur.machine.dynamics.watch import Watch, watch
+from assur.machine.dynamics.steps import StepsInTime
+from assur.machine.dynamics.watch import watch
 from assur.machine.forces.loads import load_of
 from assur.machine.masses.link_masses import all_masses
-from assur.machine.motion.joint_motion import ClosedMotion, joint_scales_si
-from assur.machine.motion.screws import screw_rates
+from assur.machine.motion.joint_motion import ClosedMotion
+from assur.machine.motion.screws import rate_metres, screw_rates
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, rate_names
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
-RELATIVE = 1e-10
-"""Error of a step."""
-OF_PLACES, OF_RATES = 1e-12, 1e-10
-"""Least errors that count, in rad and characteristic lengths, and these per s: the spins of thin rods, which have
-hardly any inertia, are noise of this size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,11 +156,11 @@ def free_motion(
     values = joints_in_mode(record, pose[None], mode)
     if not np.all(np.isfinite(values)):
         raise UsageError(not_begun(record, release.t_start, pose, mode).text)
-    run = _Run(equation, release, watch(record, values[0], use_limits=use_limits))
-    units = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
-    start = run.state(values[0], equation.motion(values).rates((release.velocity * units)[None])[0], 0.0)
-    departure = run.watch.at_start(release.t_start, values[0])
-    states = [(release.t_start, start)]
+    watched = watch(record, values[0], use_limits=use_limits)
+    run = StepsInTime(equation, _ByForces(equation, release), watched)
+    rates = equation.motion(values).rates((release.velocity * rate_metres(record))[None])[0]
+    departure = watched.at_start(release.t_start, values[0])
+    states = [(release.t_start, run.state(values[0], rates, 0.0))]
     with stage("free motion", release.count) as work:
         for time in (
             np.linspace(release.t_start, release.t_end, release.count)[1:].tolist() if departure is None else []
@@ -179,90 +169,48 @@ def free_motion(
             work.at(len(states), result=f"{states[-1][0]:.3g} s")
             if departure is not None:
                 break
-    return _told(equation, run, states, departure)
+    return _told(equation, release, [(time, *run.parts(state)) for time, state in states], departure)
 
 
-class _Run:
-    """The steps of a motion, by states: joint values, rates of the joints, work, all without dimensions."""
+@dataclass(frozen=True, eq=False)
+class _ByForces:
+    """The law of a motion by the forces of a release."""
 
-    def __init__(self, equation: EquationOfMotion, release: Release, watch: Watch) -> None:
-        record = equation.record
-        length = METRES[record.unit] * characteristic_length(record)
-        self.equation, self.release, self.watch = equation, release, watch
-        self.count = len(record.coordinates)
-        self.units = np.concatenate(
-            [joint_units(record), joint_scales_si(record), [max(equation.masses.total, 1e-300) * length**2]]
-        )
-        self.least = np.repeat([OF_PLACES, OF_RATES], [self.count, self.count + 1])
-        self.solver: Any = None
+    equation: EquationOfMotion
+    release: Release
 
-    def state(self, values: FloatArray, rates: FloatArray, work: float) -> FloatArray:
-        """The state (2 n + 1,) of joint values and rates (n,) and work."""
-        return np.asarray(np.concatenate([values, rates, [work]]) / self.units)
+    def second(self, time: float, motion: ClosedMotion, rates: FloatArray) -> FloatArray:
+        return self.equation.accelerations(motion, rates, self.release.forces(time)[None])
 
-    def parts(self, state: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-        """Joint values and rates (n,), and work, of a state."""
-        whole = state * self.units
-        return whole[: self.count], whole[self.count : -1], float(whole[-1])
+    def power(self, time: float, motion: ClosedMotion, rates: FloatArray) -> FloatArray:
+        return self.equation.power(motion, rates, self.release.forces(time)[None])
 
-    def to(self, states: list[tuple[float, FloatArray]], time: float) -> Departure | None:
-        """Go on from the last of the states to a time; the state there, or at the event that ended it, follows them."""
-        if self.solver is None:
-            solver_of: Any = DOP853  # whose types know neither arrays of tolerances nor that steps fail
-            self.solver = solver_of(self._change, *states[-1], time, rtol=RELATIVE, atol=self.least)
-        solver = self.solver
-        solver.t_bound, solver.status = time, "running"
-        while solver.t < time:
-            solver.step()
-            if solver.status == "failed":
-                return self.watch.too_fast(float(solver.t), self.parts(solver.y)[0])
-            between = solver.dense_output()
-            event = self.watch.event(partial(self._values, between), float(solver.t_old or 0.0), float(solver.t))
-            if event is not None:
-                states.append((event.time, self._closed(between(event.time))))
-                return event
-            solver.y = self._closed(solver.y)
-            solver.f = solver.fun(solver.t, solver.y)
-        states.append((time, solver.y))
+    def kept(self, _: float, motion: ClosedMotion, rates: FloatArray) -> FloatArray:
+        return self.equation.closing_rates(motion, rates)
+
+    def pose(self, _: float) -> None:
         return None
-
-    def _values(self, between: Callable[[float], FloatArray], time: float) -> FloatArray:
-        """Joint values (n,) at a time within a step."""
-        return np.asarray(between(time)[: self.count] * self.units[: self.count])
-
-    def _change(self, time: float, state: FloatArray) -> FloatArray:
-        values, rates, _ = (np.atleast_2d(part) for part in self.parts(state))
-        forces, motion = self.release.forces(time)[None], self.equation.motion(values)
-        second = self.equation.accelerations(motion, rates, forces)
-        change = self.equation.value_rates(values, rates)[0], second[0], self.equation.power(motion, rates, forces)
-        return np.asarray(np.concatenate(change) / self.units)
-
-    def _closed(self, state: FloatArray) -> FloatArray:
-        """The state with its loops closed, and rates that keep them so."""
-        values, rates, work = self.parts(state)
-        record = self.equation.record
-        near = whole_turns_less(record, assemble(record, values[None], near=True).values)
-        return self.state(near[0], self.equation.closing_rates(self.equation.motion(near), rates[None])[0], work)
 
 
 def _told(
-    equation: EquationOfMotion, run: _Run, states: list[tuple[float, FloatArray]], departure: Departure | None
+    equation: EquationOfMotion,
+    release: Release,
+    states: list[tuple[float, FloatArray, FloatArray, float]],
+    departure: Departure | None,
 ) -> FreeMotion:
-    """The motion of states at their times."""
+    """The motion of states: time, joint values and rates (n,), work."""
     record = equation.record
-    parts = [run.parts(state) for _, state in states]
-    shape = (len(states), run.count)
-    values, rates = (np.array([part[k] for part in parts]).reshape(shape) for k in range(2))
-    forces = np.array([run.release.forces(time) for time, _ in states]).reshape(len(states), len(record.drives))
+    times, values, rates, work = (np.array(part) for part in zip(*states, strict=True))
+    forces = np.array([release.forces(time) for time in times]).reshape(len(times), len(record.drives))
     motion = equation.motion(values)
     return FreeMotion(
         record=record,
-        times=np.array([time for time, _ in states]),
+        times=times,
         values=values,
         joint_rates=rates,
         joint_accelerations=equation.accelerations(motion, rates, forces),
         forces=forces,
-        work=np.array([part[2] for part in parts]),
+        work=work,
         under_gravity=equation.load.gravity,
         motion=motion,
         departure=departure,

@@ -14,21 +14,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics.border import checked_poses, drives_of
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.dynamics.departure import Departure
 from assur.machine.dynamics.equation_of_motion import EquationOfMotion
 from assur.machine.dynamics.followed_motion import followed_motion
+from assur.machine.dynamics.idle_motion import swings, swung
 from assur.machine.dynamics.prescribed_motion import PrescribedMotion
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.utilisation import Utilisation, peak, rms, utilisation
 from assur.machine.masses.link_masses import all_masses
+from assur.machine.motion.screws import rate_metres
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
-BALANCED = 1e-7
-"""Share of the largest weight per joint rate below which that per spin is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +41,7 @@ class MotionForces:
         inputs: (N, d) printed inputs, in the mechanism's unit and rad, angles without jumps.
         answer: forces, energies, rates of inputs (`machine.forces.actuator_forces.ActuatorForces`); None where refused.
         departure: why the motion is refused; None where it is not.
+        swings: whether rods weigh beside the axes about which nothing drives them, so that they swing on their own.
     """
 
     record: MechanismRecord
@@ -53,6 +52,7 @@ class MotionForces:
     inputs: FloatArray
     answer: ActuatorForces | None
     departure: Departure | None
+    swings: bool = False
 
     @property
     def status(self) -> str:
@@ -89,16 +89,6 @@ class MotionForces:
     def potential_energy(self) -> FloatArray:
         """(N,) in J."""
         return np.empty(0) if self.answer is None else self.answer.potential_energy
-
-    @cached_property
-    def spins_open(self) -> bool:
-        """Whether nothing drives the spin of rods that weigh beside their axes, so that forces depend on it."""
-        if self.answer is None:
-            return False
-        equation = EquationOfMotion(self.record, all_masses(self.record), self.answer.load)
-        motion = equation.motion(self.answer.values[:1])
-        pulled = np.einsum("nji,nj->ni", motion.idle, motion.inertia.weight)
-        return bool(np.abs(pulled).max() > BALANCED * np.abs(motion.inertia.weight).max())
 
     @property
     def peak(self) -> FloatArray:
@@ -160,16 +150,20 @@ def dynamics(
     >>> len(answer.times), answer.status
     (65, 'regular')
     """
-    acting = load_of(load, gravity)
+    equation = EquationOfMotion(record, all_masses(record), load_of(load, gravity))
     times = motion.times
+    joints, departure = followed_motion(record, motion, mode, use_limits=use_limits)
+    rates, swinging = None, False
+    if departure is None:
+        swinging = swings(equation.motion(joints[[0, len(joints) // 2, -1]]))
+        if swinging:
+            joints, rates, departure = swung(equation, motion, joints[0])
     poses, velocities, accelerations = motion.at(times)
     poses = checked_poses(record, poses)
-    joints, departure = followed_motion(record, motion, mode, use_limits=use_limits)
     if departure is not None:
         nothing, none = np.empty((0, velocities.shape[1])), np.empty((0, len(record.drives)))
         return MotionForces(record, times[:0], poses[:0], nothing, nothing, none, None, departure)
-    metre = METRES[record.unit]
-    units = np.array([metre if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
-    velocities, accelerations = velocities * units, accelerations * units
-    answer = forces_at(record, joints, acting, velocities, accelerations)
-    return MotionForces(record, times, poses, velocities, accelerations, drives_of(record, joints), answer, None)
+    velocities, accelerations = velocities * rate_metres(record), accelerations * rate_metres(record)
+    answer = forces_at(record, joints, equation.load, velocities, accelerations, joint_rates=rates)
+    inputs = drives_of(record, joints)
+    return MotionForces(record, times, poses, velocities, accelerations, inputs, answer, None, swinging)

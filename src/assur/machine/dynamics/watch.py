@@ -66,11 +66,6 @@ class Watch:
             return self._singular(self._lost(start, at(after)), before, values)
         return None
 
-    def too_fast(self, time: float, values: FloatArray) -> Departure:
-        """Of a motion that speeds up beyond what steps can follow, after joint values (n,)."""
-        text = f"at {time:.6g} s it speeds up without bound"
-        return Departure("undecided", time, pose_of(self.record, values), "the step", 0.0, text)
-
     def _passed(self, before: FloatArray, after: FloatArray) -> bool:
         return self._broken(after) is not None or bool(self._lost(before, after))
 
@@ -103,6 +98,12 @@ class Watch:
             value = float(smallest(self.record, values, self.ranks)[what[1]])
         text = f"at {time:.6g} s it comes to {WORDS[kind]}; {quantity} is {value:.3g}"
         return Departure(kind, time, pose_of(self.record, values), quantity, value, text)
+
+
+def too_fast(record: MechanismRecord, time: float, values: FloatArray) -> Departure:
+    """Of a motion that speeds up beyond what steps can follow, after joint values (n,)."""
+    text = f"at {time:.6g} s it speeds up without bound"
+    return Departure("undecided", time, pose_of(record, values), "the step", 0.0, text)
 
 
 def watch(record: MechanismRecord, values: FloatArray, *, use_limits: bool = True) -> Watch:

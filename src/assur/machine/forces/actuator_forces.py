@@ -21,14 +21,14 @@ from assur.kinematics import border
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.acceleration import joints_in_mode
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.forces.balance import AT_ONCE, NO_FORCES, Asked, balanced, growth, preload, redundant
 from assur.machine.forces.batches import balanced_in_batches
 from assur.machine.forces.loads import Load, load_of
 from assur.machine.masses.link_masses import all_masses, masses
 from assur.machine.motion.joint_motion import ClosedMotion
+from assur.machine.motion.screws import rate_metres
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, rate_names
+from assur.model.pose import rate_names
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -190,7 +190,7 @@ def forces(
     given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
     names = rate_names(record.platform.pose)
-    units = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in names])
+    units = rate_metres(record)
 
     def rates(numbers: ArrayLike | None, what: str) -> FloatArray | None:
         if numbers is None:
@@ -222,11 +222,13 @@ def forces_at(
     velocity: FloatArray | None = None,
     acceleration: FloatArray | None = None,
     *,
+    joint_rates: FloatArray | None = None,
     lost: BoolArray | None = None,
 ) -> ActuatorForces:
     """Forces at joint values (N, n), for rates and accelerations (N, k) of the pose in SI units; at rest without.
 
-    Many configurations go through recorded programs, those near singularities through singular values, as few do.
+    Many configurations go through recorded programs, those near singularities through singular values, as few do, and
+    those of which all joint rates (N, n) are known.
     Where `lost` (N,) is true the joint values stand in for a pose that is not reached.
 
     Errors:
@@ -235,9 +237,9 @@ def forces_at(
     moves = velocity is not None or acceleration is not None
     known = all_masses(record) if load.gravity or moves else masses(record)
     shape = len(values), len(rate_names(record.platform.pose))
-    motion = (None if part is None else np.broadcast_to(part, shape) for part in (velocity, acceleration))
-    asked = Asked(record, values, known, load, *motion)
-    answer = balanced(asked) if len(values) < MANY else balanced_in_batches(asked)
+    first, second = (None if part is None else np.broadcast_to(part, shape) for part in (velocity, acceleration))
+    asked = Asked(record, values, known, load, first, second, joint_rates)
+    answer = balanced(asked) if len(values) < MANY or joint_rates is not None else balanced_in_batches(asked)
     status, rated = answer.status, answer.rated & (not known.lacking)
     if lost is not None:
         status[lost] = int(Status.unreachable)

@@ -70,7 +70,8 @@ class Balance:
 class Asked:
     """What is asked: configurations (N, n) of a mechanism, what its links weigh and bear, and how its pose moves.
 
-    `velocity` and `acceleration` (N, k) of the pose are in SI units, None at rest.
+    `velocity` and `acceleration` (N, k) of the pose are in SI units, None at rest; `joint_rates` (N, n) where more than
+    the velocity is known, else they have the least kinetic energy.
     """
 
     record: MechanismRecord
@@ -79,6 +80,7 @@ class Asked:
     load: Load
     velocity: FloatArray | None = None
     acceleration: FloatArray | None = None
+    joint_rates: FloatArray | None = None
 
     @property
     def moves(self) -> bool:
@@ -87,7 +89,8 @@ class Asked:
 
     def part(self, rows: NDArray[np.intp] | slice) -> Asked:
         """Of some configurations alone."""
-        motion = (None if part is None else part[rows] for part in (self.velocity, self.acceleration))
+        known = self.velocity, self.acceleration, self.joint_rates
+        motion = (None if part is None else part[rows] for part in known)
         return Asked(self.record, self.values[rows], self.known, self.load.part(rows, len(self.values)), *motion)
 
     def parts(self, count: int) -> list[Asked]:
@@ -110,7 +113,7 @@ def _balanced(asked: Asked) -> Balance:
     inertia, instant = motion.inertia, instantaneous(asked.record, asked.values)
     zero = np.zeros((len(asked.values), motion.pose.shape[1]))
     rates, speeding = (zero if part is None else part for part in (asked.velocity, asked.acceleration))
-    joint_rates = motion.rates(rates)
+    joint_rates = motion.rates(rates) if asked.joint_rates is None else asked.joint_rates
     second = motion.second(joint_rates, speeding)
     weight = inertia.weight if load.gravity else np.zeros_like(second)
     pushed = np.einsum("nkj,nk->nj", motion.platform, load.wrench_at(motion.point))

@@ -25,8 +25,9 @@ from assur.machine.motion.inertia import rotors
 from assur.machine.motion.loop_equations import angle_numbers, angles_given, angular_motion
 from assur.machine.motion.pivots import graph_pivots, weighs
 from assur.machine.motion.recorded_dynamics import InverseDynamics
+from assur.machine.motion.screws import rate_metres
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS, rate_names
+from assur.model.pose import ANGLES
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -99,8 +100,7 @@ class Batch:
     @cached_property
     def units(self) -> FloatArray:
         """What a rate of the pose (k,) in the mechanism's unit is in SI units."""
-        names = rate_names(self.record.platform.pose)
-        return np.array([METRES[self.record.unit] if name in LENGTHS else 1.0 for name in names])
+        return rate_metres(self.record)
 
     def _given(self, asked: Asked, rotation: FloatArray | None) -> FloatArray:
         """What is given (g, N)."""

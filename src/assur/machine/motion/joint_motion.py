@@ -107,6 +107,10 @@ class ClosedMotion:
         """Joint rates (N, n) at rates (N, k) of the pose."""
         return np.asarray((self.of_pose @ velocity[..., None])[..., 0])
 
+    def along(self, velocity: FloatArray) -> FloatArray:
+        """Joint rates (N, n), least by their size, at rates (N, k) of the pose."""
+        return np.asarray((self._split[0] @ velocity[..., None])[..., 0])
+
     def second(self, rates: FloatArray, acceleration: FloatArray) -> FloatArray:
         """Joint accelerations (N, n) at joint rates (N, n), for accelerations (N, k) of the pose."""
         changes = screw_rates(self.record, self.inertia.screws, rates)  # (N, n, 6)
@@ -114,7 +118,7 @@ class ClosedMotion:
         bias = at_point(loops.swapaxes(-1, -2), self.point, self.length).swapaxes(-1, -2)
         own = -(self.inverse @ bias.reshape(len(rates), -1, 1))[..., 0]
         missing = acceleration - self.pose_bias(rates, changes) - (self.pose @ own[..., None])[..., 0]
-        return np.asarray(own + (self._split[0] @ missing[..., None])[..., 0])
+        return own + self.along(missing)
 
     def pose_bias(self, rates: FloatArray, changes: FloatArray) -> FloatArray:
         """Accelerations (N, k) of the pose at joint rates (N, n) that stay as they are."""

@@ -20,6 +20,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import STILL
 from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
 
@@ -88,6 +89,17 @@ def joint_screws(record: MechanismRecord, values: FloatArray) -> FloatArray:
 def rate_units(record: MechanismRecord) -> FloatArray:
     """What a joint rate (n,) in the mechanism's units is multiplied by to be in SI units."""
     return np.array([METRES[record.unit] if item.kind == "length" else 1.0 for item in record.coordinates])
+
+
+def rate_metres(record: MechanismRecord) -> FloatArray:
+    """The same for a rate (k,) of the pose.
+
+    >>> from assur.model.registry import load_record
+    >>> rate_metres(load_record("fivebar")).tolist()
+    [0.001, 0.001]
+    """
+    names = rate_names(record.platform.pose)
+    return np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in names])
 
 
 def crossed(first: FloatArray, second: FloatArray) -> FloatArray:
