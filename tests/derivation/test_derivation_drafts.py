@@ -39,6 +39,10 @@ UNLIKE = {
     "parallelograms across each other, sliders along the last": [
         "{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z] R[z]", "P[z] P(4R)[y] P(4R)[z]",
     ],
+    "a root that both problems share": ["P[x] P(4R)[y] P(4R)[z]", "C[x] R[x] R[x]", "R[y] R[y] C[y]"],
+    "a loop with one slider in it, and a pose that leaves a coordinate open": [
+        "{P[y] R[z] R[z] | R[z] R[z]} P[z]", "P[x] P(4R)[y] P(4R)[z]",
+    ],
     "an oblique axis": ["C[x] R[x] R[x]", "C[z] R[z] R[z]", "C[1,1,0] R[1,1,0] R[1,1,0]"],
     "a slider after a crank": ["R[y] R[y] P[z]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "limbs at angles that are parameters": ["P[1,0,0] P(4S)[y]", "P[-1,2,0] P(4S)[2,1,0]", "P[-1,-2,0] P(4S)[-2,1,0]"],

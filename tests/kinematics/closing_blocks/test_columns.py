@@ -36,6 +36,20 @@ def test_motions_keep_the_loops_closed_seen_from_any_link(name):
             assert np.max(np.abs((columns * senses) @ screws.motions[:, : len(owners)])) < 1e-7
 
 
+def test_what_a_pose_leaves_free_moves_as_the_platform_does():
+    """A five-bar's pose is a point: how fast the platform turns meanwhile, against differences of its rotation."""
+    record = load_record("fivebar")
+    values, step = assemblies_by_chance(record)[1:6], 1e-6
+    motions, count = ScrewColumns(record, values).motions, len(record.coordinates)
+    for k in range(motions.shape[2]):
+        way = step * motions[:, :count, k]
+        before, after = (frames(record, own)[record.platform.link][0] for own in (values - way, values + way))
+        turning = (after @ np.swapaxes(before, -1, -2))[:, 1, 0] / (2 * step)
+        up, about_x, about_y, about_z = motions[:, count:, k].T
+        assert about_z == pytest.approx(turning, abs=1e-8)
+        assert np.max(np.abs([up, about_x, about_y])) < 1e-12
+
+
 def test_what_limbs_hold_is_not_open():
     assert open_freedoms(load_record("zeng2019")) == ()
     assert open_freedoms(load_record("three_rps")) == ("x", "y", "phi")

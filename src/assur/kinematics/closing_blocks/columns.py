@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -47,7 +48,8 @@ def assemblies_by_chance(record: MechanismRecord) -> FloatArray:
     They are in any working and assembly mode, but what stands still about home stands as there: a Delta robot whose
     platform is turned is another mechanism. Nor is it the mechanism where there are fewer freedoms than inputs: loops
     that move by their special dimensions, as Bricard's, may close elsewhere and be rigid. Beside home, singular ones
-    are left out, which close to half of the digits.
+    are left out, which close to half of the digits, and those at which inputs or pose tell less than about home: there
+    loops move otherwise, as two equal cranks do that stand on one centre.
 
     >>> from assur.model.registry import load_record
     >>> len(assemblies_by_chance(load_record("fivebar"))) > 100
@@ -68,8 +70,11 @@ def _sound(record: MechanismRecord, known: FloatArray, closed: Assembly) -> Floa
     values = np.concatenate([known, closed.values[sound]])
     sizes = closure_values(record, values)
     least = sizes[:, int(general(record).closure) - 1] / sizes[:, 0]
-    regular = (least > NEAR_SINGULAR * general_share(record)) | (np.arange(len(values)) == 0)
-    moving = values.shape[1] - np.sum(sizes > RANK_GAP * sizes[:, :1], axis=1) >= len(record.inputs)
+    regular = least > NEAR_SINGULAR * general_share(record)
+    usual, ranks = general(record), motions(record, values, RANK_GAP).ranks
+    moving = ranks.freedoms >= len(record.inputs)
+    regular &= (ranks.inputs >= usual.inputs) & (ranks.pose >= usual.pose)
+    regular[0] = True
     alike = np.array([not other for other in otherwise(record, values)], dtype=bool)
     return np.asarray(values[regular & moving & alike])
 
@@ -121,9 +126,8 @@ class ScrewColumns:
         for place in joint_graph(self.record).turns:
             columns[:, :3, place] = np.eye(3)
             columns[:, 3:, place] = _about(self.centre(self.record.coordinates[place.start].joint))
-        columns = np.concatenate([columns, self._open_platform], axis=2)
         columns[:, 3:] /= characteristic_length(self.record)
-        return columns
+        return np.concatenate([columns, self._platform(self._open_names)], axis=2)
 
     def seen_from(self, link: str) -> FloatArray:
         """The columns (N, 6, c) in the frame of a link."""
@@ -151,7 +155,9 @@ class ScrewColumns:
         rank = int(np.max(np.sum(sizes > RANK_GAP * sizes[:, :1], axis=1)))
         rates = np.swapaxes(right[:, rank:], -1, -2)
         twists = joints * [graph.paths[graph.platform].get(name, 0) for name in owners] @ rates
-        return np.concatenate([rates, np.linalg.pinv(self.in_base[:, :, count:]) @ twists], axis=1)
+        names = [*LENGTHS, *ANGLES] if self._open_names else []
+        told = np.linalg.pinv(self._platform(names)) @ twists
+        return np.concatenate([rates, told[:, [names.index(name) for name in self._open_names]]], axis=1)
 
     def centre(self, name: str) -> FloatArray:
         """Point (N, 3) of a joint on its parent link, in the base frame."""
@@ -178,23 +184,28 @@ class ScrewColumns:
         return {}
 
     @property
-    def _open_platform(self) -> FloatArray:
-        """Screws (N, 6, k) of the platform that the pose leaves free."""
-        if not self.platform:
+    def _open_names(self) -> tuple[str, ...]:
+        """Coordinates of the platform that the pose leaves free."""
+        return open_freedoms(self.record) if self.platform else ()
+
+    def _platform(self, names: Sequence[str]) -> FloatArray:
+        """Screws (N, 6, k) of coordinates of the platform, in characteristic lengths."""
+        if not names:
             return np.zeros((len(self.values), 6, 0))
         rotation, origin = self._frames[self.record.platform.link]
         rotation = np.broadcast_to(rotation, (len(self.values), 3, 3))
         point = rotation @ self.record.platform.point + origin
-        columns = np.zeros((len(self.values), 6, len(open_freedoms(self.record))))
+        columns = np.zeros((len(self.values), 6, len(names)))
         about = _about(point)
         axes = _angle_axes(self.record, rotation)
-        for k, name in enumerate(open_freedoms(self.record)):
+        for k, name in enumerate(names):
             if name in LENGTHS:
                 columns[:, 3 + LENGTHS.index(name), k] = 1.0
             else:
                 axis = axes[:, :, ANGLES.index(name)]
                 columns[:, :3, k] = axis
                 columns[:, 3:, k] = np.einsum("nij,nj->ni", about, axis)
+        columns[:, 3:] /= characteristic_length(self.record)
         return columns
 
 

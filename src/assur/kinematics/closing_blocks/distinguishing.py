@@ -25,6 +25,7 @@ from assur.kinematics.closing_blocks.folds import differing_at_folds
 from assur.kinematics.closing_blocks.namesakes import namesakes
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors
 from assur.kinematics.closing_blocks.strokes import StrokeSign
+from assur.kinematics.closing_blocks.triangular import triangular_factors
 from assur.kinematics.closure import assemble
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
@@ -106,10 +107,15 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     record = with_ball_ends(record)
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
-    answers = [_Solutions.of(ordered, values, known) for values in _solved(ordered, problem, _targets(ordered, known))]
-    joined = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    solved = _solved(ordered, problem, _targets(ordered, known))
+    answers, joined, apart = _compared(ordered, solved, known)
+    if not np.all(np.any(apart, axis=1)):
+        more = triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)))
+        finer = tuple(sorted((*known, *more), key=lambda sign: len(sign.joints)))
+        compared = _compared(ordered, solved, finer)
+        if np.sum(np.any(compared[2], axis=1)) > np.sum(np.any(apart, axis=1)):
+            known, (answers, joined, apart) = finer, compared
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
-    apart = np.concatenate([answer.apart(joined) for answer in answers])
     near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
     last = [problem == "direct" and flat for flat in _flat_loops(known, joined, ScrewColumns(ordered, near))]
     order = [*_separating(apart.T, last)]
@@ -117,8 +123,7 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     merging = differing_at_folds(ordered, problem, signs, near, [*order, *given])
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
-    unnamed = namesakes(ordered, problem, signs, near, [*order, *given])
-    order += _separating(unnamed.T, last)
+    order += _separating(namesakes(ordered, problem, signs, near, [*order, *given]).T, last)
     return tuple(
         ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)
     )
@@ -162,6 +167,15 @@ class _Solutions:
         products = np.array([np.prod(own[:, chosen], axis=1) for chosen in joined]).reshape(len(joined), len(own)).T
         first, second = np.triu_indices(len(own), 1)
         return np.asarray(products[first] != products[second])
+
+
+def _compared(
+    record: MechanismRecord, solved: Sequence[FloatArray], known: Sequence[Factor]
+) -> tuple[list[_Solutions], list[list[int]], NDArray[np.bool_]]:
+    """The solutions of each problem, products of factors that name them, and which of these differ in each pair."""
+    answers = [_Solutions.of(record, values, known) for values in solved]
+    joined = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    return answers, joined, np.concatenate([answer.apart(joined) for answer in answers])
 
 
 def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:

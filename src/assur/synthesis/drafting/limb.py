@@ -15,6 +15,7 @@ from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import GeneralisedJoint
+from assur.numerics.vectors import add, dot, scaled
 from assur.synthesis.drafting.layout import (
     SPREAD,
     WIDTH,
@@ -36,6 +37,9 @@ from assur.topology.directions import NAMED, Vector
 BASE_LINK, PLATFORM_LINK = "base", "platform"
 HEIGHT_NAME = "height"
 PITCH, REACH = 20.0, 120.0
+ASKEW = 0.2
+"""How far branches of a loop stand from being each other's mirror images, as a share of how far apart they are."""
+
 AXES = ("x", "y", "z")
 _NEAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": UNIVERSAL}
 _FAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": SPHERICAL}
@@ -260,7 +264,10 @@ def _leg(elements: Sequence[Element], ends: Sequence[ElementEnds | None], index:
 
 
 def _apart(loop: InnerLoop) -> Vector:
-    """How far the branches of a loop stand from each other: across its first axis, and a little in every direction."""
+    """How far the branches of a loop stand from each other: across its first axis, and a little in another direction.
+
+    Branches that mirror each other would be special: where they cross, two equal cranks may stand on one centre.
+    """
     axes = [
         axis
         for joint in flattened(loop.branches[0])
@@ -268,7 +275,5 @@ def _apart(loop: InnerLoop) -> Vector:
         for axis in (joint.axes if isinstance(joint, ChainJoint) else (joint.axis,))
     ]
     first = axes[0] if axes else NAMED["z"]
-    chosen = min(
-        (NAMED["y"], NAMED["x"], NAMED["z"]), key=lambda unit: abs(sum(a * b for a, b in zip(unit, first, strict=True)))
-    )
-    return (SPREAD * chosen[0], SPREAD * chosen[1], SPREAD * chosen[2])
+    side, other, _ = sorted((NAMED["y"], NAMED["x"], NAMED["z"]), key=lambda unit: abs(dot(unit, first)))
+    return add(scaled(side, SPREAD), scaled(other, ASKEW * SPREAD))
