@@ -11,6 +11,7 @@ from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.forced import SAID
+from assur.cli.lost import why_lost
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.quantities import mode_words
@@ -31,8 +32,9 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
     """What is held at a pose (m,), in lengths and rad."""
     held = capacity(record, pose, mode)
     status = Status(int(held.answer.status[0])).name
+    lost = why_lost(record, pose, mode, Status[status])
     metre = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in record.platform.pose])
-    notes = [SAID[status]] if status in SAID else []
+    notes = [*lost.notes] or ([SAID[status]] if status in SAID else [])
     if np.any(held.utilisation > 1.0):
         notes.append("gravity alone asks for more than the actuators can")
     elif not len(held.vertices) and not notes:

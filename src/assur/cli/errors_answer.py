@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from rich.console import RenderableType
 
 from assur.cli import exit_codes
+from assur.cli.lost import why_lost
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
-from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
@@ -39,6 +39,7 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
 
 def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: PoseErrors) -> ErrorsAnswer:
     held = solved.status == Status.regular
+    lost = why_lost(record, pose, mode, solved.status)
     summed = held and bool(record.machine.tolerances)
     return ErrorsAnswer(
         **mechanism_header(record),
@@ -59,8 +60,8 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: PoseErrors
         covariance=plain(solved.covariance) if summed else None,
         proved=solved.proved.bounds or None if summed else None,
         clearances={joint: tuple(row.tolist()) for joint, row in solved.clearances.items()},
-        failures=missing(record, record.inverse(pose, mode).failures) if solved.status == Status.unreachable else (),
-        notes=tuple(_notes(record, solved)),
+        failures=lost.failures,
+        notes=lost.notes or tuple(_notes(record, solved)),
         units={
             "pose": ", ".join(record.unit if name in LENGTHS else "rad" for name in record.platform.pose),
             "sensitivity": f"x, y, z in {record.unit}, rx, ry, rz in rad, per unit of the dimension or input",

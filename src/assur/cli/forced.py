@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from rich.console import RenderableType
 
 from assur.cli import exit_codes, weak
+from assur.cli.lost import why_lost
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
 from assur.errors import UsageError
-from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
@@ -77,7 +77,7 @@ def _answer(
     metre = METRES[record.unit]
     of_pose = np.array([metre if name in LENGTHS else 1.0 for name in record.platform.pose])
     of_rates = np.array([metre if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
-    lost = status == Status.unreachable
+    lost = why_lost(record, pose, mode, status)
     return ForcesAnswer(
         **mechanism_header(record),
         pose=(pose * of_pose).tolist(),
@@ -107,8 +107,8 @@ def _answer(
         equations=passed.equations if passed else None,
         rank=passed.rank if passed else None,
         redundancy=passed.redundancy if passed else None,
-        failures=missing(record, record.inverse(pose, mode).failures) if lost else (),
-        notes=tuple(_notes(record, solved)),
+        failures=lost.failures,
+        notes=lost.notes or tuple(_notes(record, solved)),
         units=_units(record),
     )
 

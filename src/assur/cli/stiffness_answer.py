@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from rich.console import RenderableType
 
 from assur.cli import exit_codes
+from assur.cli.lost import why_lost
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
-from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
@@ -52,7 +52,8 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
     whole, motors = _compliance(solved), _compliance(solved.actuator_only)
     shares = solved.shares() if held else None
     vibrations = solved.vibrations() if held else None
-    notes = [NOT_HELD] if status == Status.parallel else []
+    lost = why_lost(record, pose, mode, status)
+    notes = [NOT_HELD] if status == Status.parallel else [*lost.notes]
     if held and not solved.strains().structure.beams:
         notes.append("no link has a profile: only the actuators give way")
     if vibrations and vibrations.lacking:
@@ -72,7 +73,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
         actuator_only=motors,
         shares=ShownShares(shares.links, shares.kinds, shares.actuators) if shares else None,
         frequencies=tuple(plain(vibrations.frequencies)) if vibrations else (),
-        failures=missing(record, record.inverse(pose, mode).failures) if status == Status.unreachable else (),
+        failures=lost.failures,
         notes=tuple(notes),
         units={"pose": ", ".join("m" if name in LENGTHS else "rad" for name in record.platform.pose), **UNITS},
     )

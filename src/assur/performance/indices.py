@@ -25,8 +25,8 @@ from assur.errors import UnknownNameError
 from assur.kinematics import border
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.mode_reading import ModeReading
-from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.position import branches_at, inverse
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.rates.units import factor_unit, scaled
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map_at, velocity_map_of
 from assur.kinematics.status import Status
@@ -312,19 +312,13 @@ def _of_branches(solved: Branches, kept: NDArray[np.bool_]) -> Part:
 
 
 def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
-    """Home's mode at poses (N, m), pose by pose followed from home; undecided where no path leads there, unreachable
-    where it is proved that none does.
+    """Home's mode at poses (N, m), followed from home; undecided where no path leads there, unreachable where it is
+    proved that none does.
     """
-    joints = np.full((len(poses), len(record.coordinates)), np.nan)
-    reached = [home_mode_at(record, pose) for pose in poses]
-    for row, ends in zip(joints, reached, strict=True):
-        if ends.joints is not None:
-            row[:] = ends.joints
-    status, matrices, joints, singular = _at_joints(record, joints)
-    for k, ends in enumerate(reached):
-        if ends.joints is None:
-            status[k] = ends.status
-    return status, matrices, joints, singular
+    joints, lost = reached_in_mode(record, poses)
+    absent = lost != Status.regular
+    status, matrices, joints, singular = _at_joints(record, np.where(absent[:, None], np.nan, joints))
+    return np.where(absent, lost, status), matrices, joints, singular
 
 
 def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:

@@ -8,10 +8,12 @@ import pytest
 
 import assur
 from assur.kinematics import border
-from assur.kinematics.following.from_home import followed_from_home, followed_together
+from assur.kinematics.following.from_home import followed_by_ways, followed_from_home, followed_together
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
+from assur.model.pose import is_angle
 from assur.model.registry import load_record
 
 NAMES = ("fivebar", "delta_4s", "zeng2019", "planar_3rrr", "three_crr")
@@ -90,6 +92,32 @@ def test_poses_in_a_row_are_reached_as_from_home(name):
     turns = np.array([2 * np.pi if item.coordinate.kind == "angle" else np.inf for item in record.inputs])
     difference = np.abs(inputs[0] - inputs[1])
     np.testing.assert_array_less(np.minimum(difference, np.abs(turns - difference)), 1e-6 * np.max(size))
+
+
+def test_ways_lead_round_what_the_straight_one_ends_at_and_stay_in_home_s_mode():
+    record = assur.load("fivebar")
+    poses = np.random.default_rng(5).uniform([-220.0, -150.0], [220.0, 250.0], (100, 2))
+    joints, straight = followed_by_ways(record, poses), followed_from_home(record, poses)[1]
+    reached = np.isfinite(joints[:, 0])
+    assert straight.sum() < reached.sum() < 100
+    assert np.all(reached[straight])
+    wanted = record.inverse(poses[reached], record.modes.default_working).inputs[:, 0]
+    away = border.inputs_of(record, joints[reached]) - wanted
+    np.testing.assert_allclose(np.sin(0.5 * away), 0.0, atol=1e-9)
+
+
+def test_angles_go_the_short_way():
+    record = assur.load("planar_3rrr")
+    turn = [2 * np.pi if is_angle(name) else 0.0 for name in record.platform.pose]
+    poses = pose_of(record, home_values(record)) + np.random.default_rng(1).uniform(-1, 1, (5, 3)) * [30, 30, 0.3]
+    np.testing.assert_allclose(followed_by_ways(record, poses + turn), followed_by_ways(record, poses), atol=1e-9)
+
+
+@pytest.mark.parametrize(("count", "said"), [(9, "undecided"), pytest.param(1, "unreachable", marks=pytest.mark.deep)])
+def test_a_pose_that_no_way_leads_to_is_undecided_among_many_and_alone_where_that_is_proved_out_of_reach(count, said):
+    record = replace(load_record("fivebar"), closed_form=None)
+    far = pose_of(record, home_values(record)) + 1e4
+    assert [Status(code).name for code in reached_in_mode(record, np.tile(far, (count, 1)))[1]] == [said] * count
 
 
 def test_coordinates_of_a_pose_may_stand_in_any_order():

@@ -9,7 +9,7 @@ from scipy.optimize import linprog
 import assur
 from assur.errors import UsageError
 from assur.kinematics.pose import pose_of
-from assur.machine.forces.actuator_forces import reached
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.machine.forces.capacity import capacity, held_forces
 from assur.model.machine_data import Actuator, Gravity, MachineData
 from own_machines import own_machine
@@ -81,7 +81,7 @@ def test_with_more_drives_than_freedoms_preload_helps():
         )
         return answer.x[0]
 
-    faces = held_forces(record, *reached(record, pose[None])).faces[0]
+    faces = held_forces(record, *reached_in_mode(record, pose[None])).faces[0]
     np.testing.assert_allclose([[reach(-axis), reach(axis)] for axis in np.eye(3)], held.per_axis, rtol=1e-7)
     near = faces / np.linalg.norm(faces, axis=1, keepdims=True)
     assert min(reach(direction) for direction in near) == pytest.approx(held.sphere)

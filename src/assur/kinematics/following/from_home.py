@@ -1,18 +1,24 @@
-"""Poses or inputs that home's mode reaches: many at once, along straight ways from home, or by neighbours."""
+"""Poses or inputs that home's mode reaches: many at once, along straight ways from home, by detours, by neighbours."""
 
 from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import inputs_of
+from assur.kinematics.border import checked_poses, in_range, inputs_of
 from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.neighbours import SignGuard, held_signs, joined, steps_at
 from assur.kinematics.following.stepping import Pace, followed
 from assur.kinematics.following.ways import Straight
 from assur.kinematics.home import home_values
-from assur.kinematics.pose import pose_of
+from assur.kinematics.pose import pose_of, turned_alike
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.numerics import rotations
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -22,8 +28,17 @@ FIRST, LEAST = 2.0**-2, 2.0**-10
 """Share of the way of the first step, and of the shortest one that is tried."""
 MOST = 100
 """Steps on a way, taken or not, at most."""
+AT_ONCE = 4096
+"""Poses that are worked on together."""
+DETOURS = 6
+"""Ways by a pose by chance that are tried where the straight one stops."""
+ASIDE = 0.5
+"""How far aside these poses lie, as a share of the way, and of the file's box where it has one."""
+ALL_ROUND = ("phi", "psi")
+"""Angles of a pose that come back after a turn; theta turns back at a right angle."""
 COARSE = 2.0**-5
-"""The shortest step to one of many poses: what it does not lead to is out of reach, or a neighbour leads there."""
+"""The shortest step to one of many poses, or on a detour: what it does not lead to is out of reach, or a neighbour or
+another detour leads there."""
 SAMPLES, SOME = 512, 16
 """So many poses at a time are followed to from home, or a sixteenth, but a quarter of these at least: each takes some
 ten times as long as from a neighbour."""
@@ -59,12 +74,98 @@ def followed_from_home(
         [True, False]
     """
     home, count = home_values(record), len(poses)
-    given = (pose_of if held == "poses" else inputs_of)(record, home[None])
-    begun = steps_at(home_guard(record, held), given, home[None]).of(np.zeros(count, dtype=np.intp))
-    here, pace = begun.places, Pace(least, most=MOST)
-    reached = followed(Straight(record, begun.poses, poses, held), here, begun.guard, pace, np.full(count, FIRST))
-    here.joints[~reached] = np.nan
-    return here.joints, reached
+    start = (pose_of if held == "poses" else inputs_of)(record, home)
+    joints = _followed(record, np.tile(start, (count, 1)), np.tile(home, (count, 1)), poses, least, held)
+    return joints, np.isfinite(joints[:, 0])
+
+
+def followed_by_ways(record: MechanismRecord, poses: FloatArray) -> FloatArray:
+    """Joint values (N, n) of home's mode at poses (N, m), NaN where no way led: straight from home, else by detours.
+
+    Angles go the short way. What a pose gets depends on that pose alone; that none of the ways leads to it is no proof.
+
+    Example: the five-bar, up to where its elbows straighten, and beyond.
+
+        >>> from assur.model.registry import load_record
+        >>> joints = followed_by_ways(load_record("fivebar"), np.array([[0.0, 280.0], [0.0, 290.0]]))
+        >>> np.isfinite(joints[:, 0]).tolist()
+        [True, False]
+    """
+    with stage("ways of home's mode to poses", len(poses)) as work:
+        parts = [np.empty((0, len(record.coordinates)))]
+        for first in range(0, len(poses), AT_ONCE):
+            parts.append(_by_ways(record, poses[first : first + AT_ONCE]))
+            work.at(min(first + AT_ONCE, len(poses)), len(poses))
+    return np.concatenate(parts)
+
+
+def _by_ways(record: MechanismRecord, poses: FloatArray) -> FloatArray:
+    home = home_values(record)
+    start = pose_of(record, home)
+    begun = np.array([turned_alike(record.platform.pose, start, pose) for pose in poses])
+    joints = np.full((len(poses), len(home)), np.nan)
+    asides = _asides(record, start, _short_way(record, begun, poses))
+    for way, least in itertools.chain([((poses,), LEAST)], (((aside, poses), COARSE) for aside in asides)):
+        rows = np.flatnonzero(np.isnan(joints[:, 0]))
+        if not len(rows):
+            break
+        at, values = begun[rows], np.tile(home, (len(rows), 1))
+        for vertices in way:
+            goal = _short_way(record, at, poses[rows]) if vertices is poses else vertices[rows]
+            at, values = goal, _followed(record, at, values, goal, least)
+        joints[rows] = values
+    return joints
+
+
+def _followed(
+    record: MechanismRecord,
+    start: FloatArray,
+    joints: FloatArray,
+    goals: FloatArray,
+    least: float = LEAST,
+    held: Prescribed = "poses",
+) -> FloatArray:
+    """Joint values (N, n) to which straight ways lead from assemblies (N, n) at poses (N, m) or inputs; else NaN."""
+    rows, ends = np.flatnonzero(np.isfinite(joints[:, 0])), np.full(joints.shape, np.nan)
+    begun, pace = steps_at(home_guard(record, held), start[rows], joints[rows]), Pace(least, most=MOST)
+    way = Straight(record, start[rows], goals[rows], held)
+    good = followed(way, begun.places, begun.guard, pace, np.full(len(rows), FIRST))
+    ends[rows[good]] = begun.places.joints[good]
+    return ends
+
+
+def _asides(record: MechanismRecord, start: FloatArray, goals: FloatArray) -> Iterator[FloatArray]:
+    """Poses (N, m) by which to go where the straight way stops; a single angle may go the other way round."""
+    if len(start) > 1:
+        yield from detours(record, "poses", start, goals)
+    elif record.platform.pose[0] in ALL_ROUND:
+        yield goals - np.copysign(2.0 * np.pi, goals - start)
+
+
+def _short_way(record: MechanismRecord, start: FloatArray, goals: FloatArray) -> FloatArray:
+    """The same poses (N, m), their angles and quaternions next to those of others."""
+    names, near = record.platform.pose, goals.copy()
+    turning = [k for k, name in enumerate(names) if is_angle(name)]
+    near[:, turning] = start[:, turning] + rotations.nearest_turn(goals[:, turning] - start[:, turning])
+    if has_quaternion(names):
+        columns = [names.index(name) for name in QUATERNION]
+        opposite = np.sum(start[:, columns] * goals[:, columns], axis=1) < 0.0
+        near[np.ix_(opposite, columns)] *= -1.0
+    return near
+
+
+def detours(
+    record: MechanismRecord, prescribed: Prescribed, start: FloatArray, goals: FloatArray, count: int = DETOURS
+) -> Iterator[FloatArray]:
+    """Places (N, k) beside the ways from one (k,) to others (N, k), drawn by chance; the same ways have the same."""
+    rng = np.random.default_rng(0)
+    size = np.repeat(np.max(np.abs(goals - start), axis=1, keepdims=True), len(start), axis=1)
+    if prescribed == "poses":
+        spans = [np.subtract(*record.box[name][::-1]) if name in record.box else 0.0 for name in record.platform.pose]
+        size = np.where(np.array(spans) > 0, spans, np.abs(goals - start))
+    for _ in range(count):
+        aside = 0.5 * (start + goals) + ASIDE * size * rng.uniform(-1.0, 1.0, len(start))
+        yield checked_poses(record, in_range(record, aside)) if prescribed == "poses" else aside
 
 
 def home_guard(record: MechanismRecord, held: Prescribed) -> SignGuard:

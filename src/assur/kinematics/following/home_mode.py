@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.border import in_range, inputs_of
+from assur.kinematics.border import inputs_of
+from assur.kinematics.following import from_home
 from assur.kinematics.following.course import Prescribed, Turns
 from assur.kinematics.following.exclusion import MERGED, of_other_signs
 from assur.kinematics.following.following import follow
@@ -39,17 +40,8 @@ from assur.numerics import rotations
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
-DETOURS = 6
-"""Ways by a pose by chance that are tried where the straight one stops."""
-
-ASIDE = 0.5
-"""How far aside these poses lie, as a share of the way, and of the file's box where it has one."""
-
 CLEARLY = 1e-5
 """Share of the way that must be left where a branch folds back: nearer than that the target may be its end."""
-
-ALL_ROUND = ("phi", "psi")
-"""Angles of a pose that come back after a turn; theta turns back at a right angle."""
 
 LISTED = 12
 """Modes that a sentence names."""
@@ -122,7 +114,7 @@ def home_mode_at(
     record: MechanismRecord,
     target: ArrayLike,
     prescribed: Prescribed = "poses",
-    detours: int = DETOURS,
+    detours: int = from_home.DETOURS,
     known: SolutionSet | None = None,
 ) -> HomeMode:
     """Home's mode at a pose (m,) or at printed inputs (n,), in lengths and rad, by paths from home.
@@ -211,28 +203,14 @@ def _other_ways(
     record: MechanismRecord, prescribed: Prescribed, home: FloatArray, goal: FloatArray, detours: int
 ) -> Iterator[tuple[FloatArray, Turns]]:
     """Ways beside the straight one; of a single coordinate there is the other way round alone, if it is an angle."""
-    if len(goal) > 1:
-        for aside in _detours(record, prescribed, home, goal, detours):
-            yield np.stack([aside, goal]), "short"
-        return
-    poses = prescribed == "poses"
-    turning = record.platform.pose[0] in ALL_ROUND if poses else bool(periodic_inputs(record)[0])
-    if turning:
-        start = float((pose_of if poses else inputs_of)(record, home)[0])
-        short = float(rotations.nearest_turn(goal[0] - start))
-        yield np.array([start + short - np.copysign(2 * np.pi, short)]), "given"
-
-
-def _detours(
-    record: MechanismRecord, prescribed: Prescribed, home: FloatArray, goal: FloatArray, count: int
-) -> Iterator[FloatArray]:
-    """Places beside the way."""
-    rng = np.random.default_rng(0)
     start = pose_of(record, home) if prescribed == "poses" else inputs_of(record, home)
-    size = np.full(len(goal), float(np.max(np.abs(goal - start))))
-    if prescribed == "poses":
-        spans = [np.subtract(*record.box[name][::-1]) if name in record.box else 0.0 for name in record.platform.pose]
-        size = np.where(np.array(spans) > 0, spans, np.abs(goal - start))
-    for _ in range(count):
-        aside = 0.5 * (start + goal) + ASIDE * size * rng.uniform(-1.0, 1.0, len(goal))
-        yield in_range(record, aside) if prescribed == "poses" else aside
+    if len(goal) > 1:
+        for aside in from_home.detours(record, prescribed, start, goal[None], detours):
+            yield np.stack([aside[0], goal]), "short"
+        return
+    turning = (
+        record.platform.pose[0] in from_home.ALL_ROUND if prescribed == "poses" else bool(periodic_inputs(record)[0])
+    )
+    if turning:
+        short = float(rotations.nearest_turn(goal[0] - start[0]))
+        yield np.array([start[0] + short - np.copysign(2 * np.pi, short)]), "given"

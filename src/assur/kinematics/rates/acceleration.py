@@ -18,11 +18,13 @@ from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics import border
 from assur.kinematics.closure import closure_jacobian
-from assur.kinematics.following.home_mode import home_mode_at
+from assur.kinematics.following.from_home import followed_by_ways
+from assur.kinematics.home import home_values
 from assur.kinematics.pose import LEAST_COSINE, platform_frame, platform_twists, pose_rates
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import SINGULAR, general_share, input_units, twist_units
+from assur.kinematics.status import Status
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
@@ -30,6 +32,8 @@ from assur.numerics import rotations
 from assur.numerics.vectors import plus, times
 
 FloatArray = NDArray[np.float64]
+FEW = 8
+"""So many poses that no way led to are looked at one by one: a proof that none does takes a second."""
 
 
 def acceleration(
@@ -69,8 +73,8 @@ def acceleration(
 def joints_in_mode(record: MechanismRecord, poses: FloatArray, mode: str | None = None) -> FloatArray:
     """Joint values (N, n) at poses (N, m) in a working mode; NaN where it does not reach.
 
-    Without a mode it is the file's default; without a closed form home's, followed from home to each pose. Of several
-    solutions of a mode it is the first.
+    Without a mode it is the file's default; without a closed form home's, followed from home to all poses at once. Of
+    several solutions of a mode it is the first.
 
     >>> from assur.model.registry import load_record
     >>> joints_in_mode(load_record("fivebar"), np.array([[0.0, 224.0], [0.0, 999.0]])).shape
@@ -78,10 +82,32 @@ def joints_in_mode(record: MechanismRecord, poses: FloatArray, mode: str | None 
     """
     asked = mode or record.modes.default_working
     if record.closed_form is None and asked == record.modes.default_working:
-        reached = (home_mode_at(record, pose).joints for pose in poses)
-        lost = np.full(len(record.coordinates), np.nan)
-        return np.array([lost if values is None else values for values in reached])
+        return followed_by_ways(record, poses)
     return inverse(record, poses, asked).first_joints
+
+
+def reached_in_mode(
+    record: MechanismRecord, poses: FloatArray, mode: str | None = None
+) -> tuple[FloatArray, NDArray[np.int8]]:
+    """The same, with home's joint values (N, n) where the mode does not reach, and the status (N,) of that.
+
+    It is `regular` where it reaches, else `unreachable`; without a closed form `undecided` where no way led there, or
+    `unreachable` where that is proved, which is tried where there are `FEW` such poses at most.
+
+    >>> from assur.model.registry import load_record
+    >>> reached_in_mode(load_record("fivebar"), np.array([[0.0, 224.0], [0.0, 999.0]]))[1].tolist()
+    [0, 8]
+    """
+    joints = joints_in_mode(record, poses, mode)
+    lost = ~np.all(np.isfinite(joints), axis=-1)
+    why = Status.unreachable if record.closed_form else Status.undecided
+    status = np.where(lost, int(why), int(Status.regular)).astype(np.int8)
+    if record.closed_form is None and np.sum(lost) <= FEW and mode in (None, record.modes.default_working):
+        from assur.kinematics.following.home_mode import home_mode_at  # the searches, which most poses do without
+
+        for place in np.flatnonzero(lost):
+            status[place] = int(home_mode_at(record, poses[place]).status)
+    return np.where(lost[:, None], home_values(record), joints), status
 
 
 def acceleration_at(

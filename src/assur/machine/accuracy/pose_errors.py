@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
-from assur.kinematics.home import home_values
-from assur.kinematics.rates.acceleration import joints_in_mode
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
 from assur.machine.accuracy.elastic_errors import elastic_errors
@@ -121,10 +120,10 @@ def pose_errors(record: MechanismRecord, pose: ArrayLike, mode: str | None = Non
     flat = border.checked_poses(record, pose).reshape(-1, len(record.platform.pose))
     if len(flat) != 1:
         raise UsageError(f"{len(flat)} poses", hint="errors are of one pose at a time")
-    values = joints_in_mode(record, flat, mode)[0]
-    if not np.all(np.isfinite(values)):
-        return PoseErrors(record, home_values(record), Status.unreachable, {}, {}, {}, (), {})
-    return pose_errors_at(record, values)
+    values, lost = reached_in_mode(record, flat, mode)
+    if lost[0] != Status.regular:
+        return PoseErrors(record, values[0], Status(int(lost[0])), {}, {}, {}, (), {})
+    return pose_errors_at(record, values[0])
 
 
 def pose_errors_at(record: MechanismRecord, values: FloatArray, *, bent: bool = True) -> PoseErrors:

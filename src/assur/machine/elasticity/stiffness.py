@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.closure import CLOSED, closure_error
-from assur.kinematics.home import home_values
-from assur.kinematics.rates.acceleration import joints_in_mode
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.beams import KINDS
@@ -190,9 +189,7 @@ def stiffness(record: MechanismRecord, poses: ArrayLike, mode: str | None = None
     """
     structure(record, shear=shear)  # what the file lacks is told before poses are solved
     flat = border.checked_poses(record, poses).reshape(-1, len(record.platform.pose))
-    joints = joints_in_mode(record, flat, mode)
-    lost = ~np.all(np.isfinite(joints), axis=-1)
-    values = np.where(lost[:, None], home_values(record), joints)
+    values, lost = reached_in_mode(record, flat, mode)
     return stiffness_at(record, values, shear=shear, lost=lost)
 
 
@@ -202,11 +199,11 @@ def stiffness_at(
     *,
     shear: bool = True,
     rigid: bool = False,
-    lost: NDArray[np.bool_] | None = None,
+    lost: NDArray[np.int8] | None = None,
 ) -> Stiffness:
     """Stiffness at joint values (N, n); with `rigid` no link bends.
 
-    Where `lost` (N,) is true the joint values stand in for a pose that is not reached.
+    Where `lost` (N,) is not `regular` the joint values stand in for a pose that is not reached, and this is its status.
     """
     own = structure(record, shear=shear, rigid=rigid)
     compliance, held = np.full((len(values), 6, 6), np.nan), np.zeros(len(values), dtype=bool)
@@ -218,6 +215,6 @@ def stiffness_at(
     status = np.where(held, int(Status.regular), int(Status.parallel)).astype(np.int8)
     status[closure_error(record, values) > CLOSED * characteristic_length(record)] = int(Status.not_closed)
     if lost is not None:
-        status[lost] = int(Status.unreachable)
+        status = np.where(lost != Status.regular, lost, status)
     compliance[status != int(Status.regular)] = np.nan
     return Stiffness(record, values, status, 0.5 * (compliance + np.swapaxes(compliance, -1, -2)), shear, rigid)

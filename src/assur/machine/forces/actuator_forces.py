@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
-from assur.kinematics.home import home_values
-from assur.kinematics.rates.acceleration import joints_in_mode
+from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
 from assur.machine.forces.balance import AT_ONCE, NO_FORCES, Asked, balanced, growth, preload, redundant
 from assur.machine.forces.batches import balanced_in_batches
@@ -175,7 +174,7 @@ def forces(
     Returns:
         Answers in SI units, one for each pose of the flattened batch. A status says where there are none: `parallel`
         where the inputs do not hold the platform, `undecided` where a motion is asked for that the pose's rates do
-        not tell, `unreachable`.
+        not tell, or no way from home was found (without a closed form); `unreachable`.
 
     Errors:
         UsageError: links without a mass, where gravity or a motion needs it; wrong shapes.
@@ -198,21 +197,9 @@ def forces(
         checked = border.checked(numbers, names, f"{what} of {record.name}") * units
         return np.broadcast_to(checked, (*given.shape[:-1], len(units))).reshape(-1, len(units))
 
-    values, lost = reached(record, flat, mode)
+    values, lost = reached_in_mode(record, flat, mode)
     moving = rates(velocity, "velocity"), rates(acceleration, "acceleration")
     return forces_at(record, values, load_of(load, gravity), *moving, lost=lost)
-
-
-def reached(record: MechanismRecord, poses: FloatArray, mode: str | None = None) -> tuple[FloatArray, BoolArray]:
-    """Joint values (N, n) at poses (N, m) in a mode, home's where it does not reach; and where (N,) that is.
-
-    >>> from assur.model.registry import load_record
-    >>> reached(load_record("fivebar"), np.array([[0.0, 224.0], [0.0, 999.0]]))[1].tolist()
-    [False, True]
-    """
-    joints = joints_in_mode(record, poses, mode)
-    lost = ~np.all(np.isfinite(joints), axis=-1)
-    return np.where(lost[:, None], home_values(record), joints), lost
 
 
 def forces_at(
@@ -223,13 +210,13 @@ def forces_at(
     acceleration: FloatArray | None = None,
     *,
     joint_rates: FloatArray | None = None,
-    lost: BoolArray | None = None,
+    lost: NDArray[np.int8] | None = None,
 ) -> ActuatorForces:
     """Forces at joint values (N, n), for rates and accelerations (N, k) of the pose in SI units; at rest without.
 
     Many configurations go through recorded programs, those near singularities through singular values, as few do, and
     those of which all joint rates (N, n) are known.
-    Where `lost` (N,) is true the joint values stand in for a pose that is not reached.
+    Where `lost` (N,) is not `regular` the joint values stand in for a pose that is not reached, and this is its status.
 
     Errors:
         UsageError: gravity or motion, and links of which the file says no mass.
@@ -241,13 +228,13 @@ def forces_at(
     asked = Asked(record, values, known, load, first, second, joint_rates)
     answer = balanced(asked) if len(values) < MANY or joint_rates is not None else balanced_in_batches(asked)
     status, rated = answer.status, answer.rated & (not known.lacking)
-    if lost is not None:
-        status[lost] = int(Status.unreachable)
-        rated &= ~lost
+    absent = np.zeros(len(values), dtype=bool) if lost is None else lost != Status.regular
+    status = status if lost is None else np.where(absent, lost, status)
+    rated &= ~absent
     tau = np.where(np.isin(status, NO_FORCES)[:, None], np.nan, answer.forces)
     input_rates = _input_rates(record, answer.joint_rates)
     band, friction = _friction(record, input_rates)
-    unknown = np.isin(status, (Status.not_closed, Status.unreachable)) | bool(known.lacking)
+    unknown = absent | (status == Status.not_closed) | bool(known.lacking)
     missing = np.where(unknown, np.nan, 0.0)
     return ActuatorForces(
         record=record,

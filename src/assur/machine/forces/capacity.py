@@ -15,7 +15,8 @@ from scipy.spatial import HalfspaceIntersection
 
 from assur.errors import UsageError
 from assur.kinematics import border
-from assur.machine.forces.actuator_forces import ActuatorForces, forces_at, reached
+from assur.kinematics.rates.acceleration import reached_in_mode
+from assur.machine.forces.actuator_forces import ActuatorForces, forces_at
 from assur.machine.forces.loads import load_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
@@ -93,8 +94,8 @@ class HeldForces:
         return np.asarray(np.min(self.reach, axis=1))
 
 
-def held_forces(record: MechanismRecord, values: FloatArray, lost: NDArray[np.bool_] | None = None) -> HeldForces:
-    """Forces that are held at joint values (N, n), gravity included; where `lost` (N,) is true there are none.
+def held_forces(record: MechanismRecord, values: FloatArray, lost: NDArray[np.int8] | None = None) -> HeldForces:
+    """Forces that are held at joint values (N, n), gravity included; where `lost` (N,) is not `regular` there are none.
 
     With more drives than freedoms the forces by which they balance one another help: what any of them holds counts.
 
@@ -152,7 +153,7 @@ def capacity(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) 
     >>> held.axes, len(held.vertices)
     (('x', 'y', 'z'), 8)
     """
-    held = held_forces(record, *reached(record, border.checked_poses(record, pose)[None], mode))
+    held = held_forces(record, *reached_in_mode(record, border.checked_poses(record, pose)[None], mode))
     shown = not bool(np.isnan(held.room[0]).any())
     place = int(np.argmin(held.reach[0])) % (held.room.shape[1] // 2)
     own = not held.answer.preload.shape[-1]

@@ -83,10 +83,10 @@ def slowest(record: MechanismRecord, own: HeldForces) -> FloatArray | None:
 
     None where the file does not say them all, or the pose has angles, or drives are redundant.
 
-    >>> from assur.machine.forces.actuator_forces import reached
+    >>> from assur.kinematics.rates.acceleration import reached_in_mode
     >>> from assur.model.registry import load_record
     >>> record = load_record("orthoglide")
-    >>> slowest(record, held_forces(record, *reached(record, np.zeros((1, 3))))).round(9).tolist()
+    >>> slowest(record, held_forces(record, *reached_in_mode(record, np.zeros((1, 3))))).round(9).tolist()
     [1.0]
     """
     limits = stated(record, "speed")
