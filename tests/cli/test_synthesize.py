@@ -163,7 +163,6 @@ def test_chosen_mechanisms_are_drafted_with_what_solves_them(assur_cli, tmp_path
         (("--motion", "3R", "--limbs", "2"), "2 limbs for 3R, whose limbs have one drive each; give 3"),
         (("--parasitic",), "unknown motion '3T'; there is: 1T2R, 1T3R, 2R, 2T3R"),
         (("--parasitic", "--motion", "1T2R", "--limbs", "2"), "2 limbs for 1T2R that others come with"),
-        (("--parasitic", "--motion", "1T2R", "--explain", "three_rps"), "--explain knows no parasitic mechanisms"),
     ],
 )
 def test_misuse_says_what_is_allowed(assur_cli, words, message):

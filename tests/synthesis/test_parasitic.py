@@ -32,7 +32,7 @@ def mechanisms(name, classes, line):
     sought = Sought(RISING, Range(0, 99), (), members=1, known=[known.key])
     for one in arranged_classes(classes, RISING, len(known.chains)):
         if one.line == line and known_members(one.chosen, [known.key]):
-            yield [design for design in moved(one, sought).designs if known.is_like(design)]
+            yield [design for design in moved(one, sought).designs if known.is_like(design.limbs, design.chains)]
 
 
 def test_the_three_rps_is_among_equal_limbs_evenly_about_z_alone(equal):

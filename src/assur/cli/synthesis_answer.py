@@ -25,6 +25,7 @@ FILTERS = {
     "words": "the limbs that are written",
     "limb": "the limbs' own motion",
     "motion": "the platform's motion",
+    "arrangement": "how the limbs stand to each other",
     "actuation": "the drives that are to determine it",
     "coupling": "the coupling degree",
     "symmetry": "equal limbs",

@@ -193,8 +193,6 @@ def synthesize(
         novelty="" if known is None else "known" if known else "new",
     )
     if explain:
-        if parasitic or asked.rows:
-            raise UsageError("--explain knows no parasitic mechanisms, and none by virtual chains")
         return _explained(explain, actuate, asked, shared)
     if actuate:
         raise UsageError("--actuate without --explain; a synthesis chooses the drives itself", hint="see --actuators")

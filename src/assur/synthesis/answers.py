@@ -19,7 +19,7 @@ from assur.results.answers.synthesis import (
     SynthesisAnswer,
 )
 from assur.synthesis.designs import Design
-from assur.synthesis.explanation import Explanation
+from assur.synthesis.filters.explained import Explanation
 from assur.synthesis.front import FrontPoint, front
 from assur.synthesis.known_mechanisms import DrivenLimb
 from assur.synthesis.positions import ABOUT_Z, AS_WRITTEN, in_words

@@ -37,6 +37,9 @@ Words = NDArray[np.intp]
 KINDS = "RPO"
 """Of a letter: a revolute joint anywhere, a prismatic one, a revolute one whose axis runs through the point."""
 
+KINDS_OF_JOINTS = ("R", "P", "U", "S")
+"""What limbs are made of, as it is written."""
+
 LETTERS = len(KINDS) * len(AXES)
 
 POINT = "O"
@@ -120,7 +123,6 @@ def _without_needless_points(words: Words, kept: NDArray[np.bool_]) -> Words:
     return np.array([word for word in words[kept].tolist() if needs(word)], dtype=np.intp).reshape(-1, words.shape[1])
 
 
-@lru_cache(KEPT)
 def following_types(
     motion: VirtualChain, max_joints: int, actuators: Actuators, *, idle: bool = False
 ) -> tuple[LimbType, ...]:
@@ -132,14 +134,22 @@ def following_types(
     >>> "R[x]@O R[y]@O R[z]@O" in found, "R[x]@O U[y,z]@O" in found
     (True, True)
     """
+    every = range(motion.dim, FREE)
+    return tuple(limb for freedoms in every for limb in types_with(motion, freedoms, max_joints, actuators, idle=idle))
+
+
+@lru_cache(FREE * KEPT)
+def types_with(
+    motion: VirtualChain, freedoms: int, max_joints: int, actuators: Actuators, *, idle: bool = False
+) -> tuple[LimbType, ...]:
+    """Those of `following_types` with so many freedoms."""
     ways: dict[object, LimbType] = {}
-    for freedoms in range(motion.dim, FREE):
-        for word in following_words(motion, freedoms, idle=idle).tolist():
-            for chain in _chains(word):
-                letters = [joint.type.letter for joint in chain.joints if isinstance(joint, ChainJoint)]
-                for driven in driven_joints(letters, actuators) if len(letters) <= max_joints else ():
-                    key = limb_key(chain, motion, (driven,))
-                    ways.setdefault(key, LimbType(chain, (driven,), key))
+    for word in following_words(motion, freedoms, idle=idle).tolist():
+        for chain in _chains(word):
+            letters = [joint.type.letter for joint in chain.joints if isinstance(joint, ChainJoint)]
+            for driven in driven_joints(letters, actuators) if len(letters) <= max_joints else ():
+                key = limb_key(chain, motion, (driven,))
+                ways.setdefault(key, LimbType(chain, (driven,), key))
     return tuple(ways.values())
 
 
@@ -262,19 +272,39 @@ def sets_of_classes(
 
     Places in which limbs are turned in many ways come first, since their drives can do more together.
     """
-    ways = len(TURNS[motion.symmetry])
-    resisted = [[wrenches(some[0], place) for place in range(limbs * ways)] for some in classes]
-    turns = sorted(product(range(ways), repeat=limbs), key=lambda turn: (max(Counter(turn).values()), turn))
-    for indices in combinations_with_replacement(range(len(classes)), limbs):
-        chosen = tuple(classes[index] for index in indices)
-        if sum(len(some[0].type.driven) for some in chosen) != motion.dim:
-            continue
-        for turn in turns:
-            places = tuple(slot * ways + way for slot, way in enumerate(turn))
-            together = [resisted[index][place] for index, place in zip(indices, places, strict=True)]
-            if np.all(_ranks(np.concatenate(together, axis=-1)) == FREE - motion.dim):
+    resisted: dict[object, FloatArray] = {}
+    for chosen in combinations_with_replacement(classes, limbs):
+        if sum(len(some[0].type.driven) for some in chosen) == motion.dim:
+            places = places_leaving(chosen, motion, resisted)
+            if places is not None:
                 yield chosen, places
-                break
+
+
+def places_leaving(
+    chosen: Sequence[Class], motion: VirtualChain, resisted: dict[object, FloatArray] | None = None
+) -> tuple[int, ...] | None:
+    """The first places in which limbs leave just the motion together.
+
+    Args:
+        chosen: the class of each limb.
+        motion: with its virtual chain.
+        resisted: what limbs resist, by class and place, as far as it is known; it grows.
+    """
+    known: dict[object, FloatArray] = {} if resisted is None else resisted
+
+    def resists(some: Class, place: int) -> FloatArray:
+        if (id(some), place) not in known:
+            known[id(some), place] = wrenches(some[0], place)
+        return known[id(some), place]
+
+    ways = len(TURNS[motion.symmetry])
+    turns = product(range(ways), repeat=len(chosen))
+    for turn in sorted(turns, key=lambda turn: (max(Counter(turn).values()), turn)):
+        places = tuple(slot * ways + way for slot, way in enumerate(turn))
+        together = [resists(some, place) for some, place in zip(chosen, places, strict=True)]
+        if np.all(_ranks(np.concatenate(together, axis=-1)) == FREE - motion.dim):
+            return places
+    return None
 
 
 def _ranks(spaces: FloatArray) -> NDArray[np.intp]:

@@ -15,9 +15,9 @@ from assur.errors import UsageError
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record, names, topology_names
 from assur.model.topologies import load_topology, means_topology
-from assur.synthesis.designs import Design
 from assur.synthesis.home_constraints import constraints_of, home_twists
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
+from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.required import RequiredMotion
 from assur.synthesis.shared_axes import sharing_ends, without_labels
 from assur.synthesis.words import AXES
@@ -66,14 +66,14 @@ class PlacedLimbs:
         """Canonical form of all limbs."""
         return mechanism_key(self.keys)
 
-    def is_like(self, design: Design) -> bool:
-        """Whether a design has the same limbs, at the same angles to each other, that share the same lines."""
-        keys = [limb.type.key for limb in design.limbs]
+    def is_like(self, limbs: Sequence[CandidateLimb], chains: Sequence[Chain]) -> bool:
+        """Whether limbs, that stand as chains, are the same, at the same angles to each other, on the same lines."""
+        keys = [limb.type.key for limb in limbs]
         if mechanism_key(keys) != self.key:
             return False
         orders = permutations(range(len(keys)))
         fitting = (order for order in orders if tuple(keys[place] for place in order) == self.keys)
-        return any(_stand_alike(self.chains, [design.chains[place] for place in order]) for order in fitting)
+        return any(_stand_alike(self.chains, [chains[place] for place in order]) for order in fitting)
 
 
 @cache
@@ -88,9 +88,14 @@ def known_by_directions(motion: RequiredMotion) -> tuple[PlacedLimbs, ...]:
     for name in dict.fromkeys((*topology_names(), *names())):
         limbs = limbs_of(name)
         if all(isinstance(joint, ChainJoint) for limb in limbs for joint in limb.chain.elements):
-            keys = tuple(limb_key(_upright(without_labels(limb.chain)), motion, limb.driven) for limb in limbs)
-            found.append(PlacedLimbs(name, tuple(limb.chain for limb in limbs), keys))
+            found.append(placed_limbs(name, limbs, motion))
     return tuple(found)
+
+
+def placed_limbs(name: str, limbs: Sequence[DrivenLimb], motion: RequiredMotion) -> PlacedLimbs:
+    """Limbs as they stand, to be compared with those of a motion."""
+    keys = tuple(limb_key(upright_axes(without_labels(limb.chain)), motion, limb.driven) for limb in limbs)
+    return PlacedLimbs(name, tuple(limb.chain for limb in limbs), keys)
 
 
 def _stand_alike(first: Sequence[Chain], second: Sequence[Chain]) -> bool:
@@ -144,7 +149,7 @@ def _driven(chains: Sequence[Chain], names: Sequence[str]) -> tuple[DrivenLimb, 
     )
 
 
-def _upright(chain: Chain) -> Chain:
+def upright_axes(chain: Chain) -> Chain:
     """The chain with its general axes along x, y and z in turn."""
     turn = cycle(NAMED[name] for name in AXES)
 
@@ -158,6 +163,8 @@ def _upright(chain: Chain) -> Chain:
 
 def _key(limbs: Sequence[DrivenLimb], motion: RequiredMotion) -> Key | None:
     try:
-        return mechanism_key(limb_key(_upright(limb.chain), motion, limb.driven) for limb in limbs) if limbs else None
+        return (
+            mechanism_key(limb_key(upright_axes(limb.chain), motion, limb.driven) for limb in limbs) if limbs else None
+        )
     except UsageError:  # an inner loop that does not stand first
         return None

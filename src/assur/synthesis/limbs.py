@@ -37,6 +37,9 @@ KEPT = 8
 FREE_LIMB_JOINTS = 3
 """Of the limbs that constrain nothing only the shortest are listed, with one ball joint each."""
 
+SHORT = (2, 3)
+"""Joints of limbs of which only the constraints at home are asked."""
+
 TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
 
 FREEDOMS_OF = {letter: joint.freedoms for letter, joint in TYPES.items()}
@@ -151,7 +154,7 @@ def short_types(motion: RequiredMotion, actuators: Actuators, *, passive: bool =
 def _short(
     motion: RequiredMotion, groups: Sequence[_Group], actuators: Actuators, passive: bool
 ) -> Iterator[tuple[Chain, tuple[int, ...]]]:
-    for count in (2, 3):
+    for count in SHORT:
         for word in product(groups, repeat=count):
             freedoms = sum(FREEDOMS_OF[letter] for letter, _ in word)
             if not motion.dim <= freedoms <= (motion.dim if passive else FREE):

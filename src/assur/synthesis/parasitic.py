@@ -30,6 +30,7 @@ from assur.synthesis.shared_axes import End, sharing, with_common_line
 from assur.synthesis.tally import Tally
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse
+from assur.topology.chains import Chain
 from assur.topology.counting.coupling import Decomposition
 from assur.topology.counting.inputs import numbered_inputs
 from assur.topology.facts import Topology
@@ -72,6 +73,11 @@ class ArrangedClasses:
     places: tuple[int, ...]
     line: End
 
+    def chains(self, limbs: Sequence[CandidateLimb]) -> tuple[Chain, ...]:
+        """How limbs, one of each class, stand in it."""
+        placed = [limb.chains[place] for limb, place in zip(limbs, self.places, strict=True)]
+        return with_common_line(placed, self.line)
+
     @property
     def members(self) -> int:
         """Mechanisms that it stands for; limbs of one class that stand alike change places."""
@@ -104,22 +110,27 @@ def limb_classes(motion: RequiredMotion, actuators: Actuators, *, passive: bool)
         types = (*(limb for limb in types if limb.freedoms == FREE), *short_types(motion, actuators, passive=True))
     classes: dict[object, list[CandidateLimb]] = {}
     for limb in types:
-        stood = _with_directions(limb, motion)
+        stood = limb_with_directions(limb, motion)
         if stood is not None:
-            classes.setdefault((limb.driven == (), stood[0]), []).append(limb_by_itself(stood[1], TURNS))
+            classes.setdefault((limb.driven == (), stood[0]), []).append(stood[1])
     ordered = (sorted(limbs, key=lambda limb: simplicity([limb])) for limbs in classes.values())
     return tuple(sorted(map(tuple, ordered), key=lambda limbs: (limbs[0].type.freedoms, simplicity(limbs[:1]))))
 
 
-def _with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[object, ...], LimbType] | None:
-    """The directions of its constraints, and the limb turned into them; none if it resists the motion."""
+def limb_with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[object, ...], CandidateLimb] | None:
+    """The directions of its constraints, and the limb turned into them; none if it resists the motion.
+
+    Errors:
+        RoutesDisagreeError: rules and twists differ on its POC set.
+    """
     first, second = (constraints_of(home_twists(limb.chain, TURNS[0], seed)) for seed in SEEDS)
     alone = limb.driven or first.leave(motion)  # what nothing drives must constrain the platform by itself
     if first.key != second.key or not alone or not first.allows(motion):
         return None
     swapped = LimbType(turned(limb.chain, SWAP), limb.driven, limb.key)
     other = constraints_of(home_twists(swapped.chain, TURNS[0], SEEDS[0]))
-    return (other.key, swapped) if other.key > first.key else (first.key, limb)
+    key, stood = (other.key, swapped) if other.key > first.key else (first.key, limb)
+    return key, limb_by_itself(stood, TURNS)
 
 
 def arranged_classes(classes: Sequence[Class], motion: RequiredMotion, limbs: int) -> Iterator[ArrangedClasses]:
@@ -196,8 +207,7 @@ def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
 
 
 def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: Sought) -> Design | Rejected:
-    placed = [limb.chains[place] for limb, place in zip(limbs, arranged.places, strict=True)]
-    chains = with_common_line(placed, arranged.line)
+    chains = arranged.chains(limbs)
     driven = [f"{number}.{place + 1}" for number, limb in enumerate(limbs, 1) for place in limb.type.driven]
     linkage = place(chains, actuated=numbered_inputs(chains, driven))
     try:

@@ -89,7 +89,7 @@ def plans(asked: SynthesisQuestion, step: Step, also: Sequence[Key] = ()) -> Ite
         also: canonical forms of mechanisms that are listed however many joints they have, as known ones are.
     """
     if asked.parasitic:
-        yield _parasitic(asked)
+        yield _parasitic(asked, also)
     elif asked.rows:
         yield from (_following(asked, row, also) for row in asked.rows)
     else:
@@ -144,12 +144,13 @@ def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key])
     return SearchPlan(usable, tuple(sets), Counter({"not the motion": len(types) - len(limbs)}))
 
 
-def _parasitic(asked: SynthesisQuestion) -> SearchPlan:
+def _parasitic(asked: SynthesisQuestion, also: Sequence[Key]) -> SearchPlan:
     """By constraints at home, which leave the motion that is asked for."""
     every = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.motion.dim)
     wanted = (tuple(limb for limb in some if asked.wants(limb.type)) for some in every)
     usable = tuple(some for some in wanted if some)
-    sought = _sought(asked, asked.motion, (), [one.key for one in known_by_directions(asked.motion)])
+    known = [*(one.key for one in known_by_directions(asked.motion)), *also]
+    sought = _sought(asked, asked.motion, (), known)
     sets = (
         ClassSet(one.chosen, len(one.chosen[0]) if asked.symmetric else one.members, partial(moved, one, sought))
         for one in arranged_classes(usable, asked.motion, asked.limbs)

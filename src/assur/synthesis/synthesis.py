@@ -150,7 +150,7 @@ def _names(asked: SynthesisQuestion) -> Callable[[Design], tuple[str, ...]]:
         return lambda design: by_row[design.row].get(mechanism(design.limbs), ())
     if asked.parasitic:
         placed = known_by_directions(asked.motion)
-        return lambda design: tuple(one.name for one in placed if one.is_like(design))
+        return lambda design: tuple(one.name for one in placed if one.is_like(design.limbs, design.chains))
     known = known_mechanisms(asked.motion)
     return lambda design: known.get(mechanism(design.limbs), ())
 

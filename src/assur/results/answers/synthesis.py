@@ -159,8 +159,8 @@ class ExplanationAnswer(Answer):
 
     Attributes:
         chains: its limbs.
-        dropped_by: the first filter that drops it, "limbs", "drives", "words", "limb", "motion", "actuation",
-            "coupling", "symmetry" or "novelty"; null where it is listed.
+        dropped_by: the first filter that drops it, "limbs", "drives", "words", "limb", "motion", "arrangement",
+            "actuation", "coupling", "symmetry" or "novelty"; null where it is listed.
         rank: among the mechanisms, and `family` that of its family; null where it is not listed.
         listed_as: its limbs as they stand in the list; none where it is not listed.
     """

@@ -1,0 +1,1 @@
+"""Which filter of a synthesis drops a mechanism: by directions, by virtual chains, by constraints at home."""
