@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Held, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
+from assur.cli.options import SHARED_DEFAULTS, Box, Held, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
 
 
 def forces(
@@ -35,6 +35,7 @@ def forces(
         str | None,
         Parameter(name="--map", metavar="X,Z", help="With --capacity: map it over these coordinates."),
     ] = None,
+    box: Box = (),
     at: Held = (),
     nodes: Annotated[str, Parameter(metavar="COUNT", help="With --map: nodes along each; 40 if left out.")] = "40",
     output: Annotated[
@@ -94,11 +95,12 @@ def forces(
     if plane is not None:
         if pose or not capacity:
             raise UsageError("--map goes with --capacity, and without --pose", hint="--at holds coordinates of a map")
-        from assur.cli import capacity_map
+        from assur.cli import machine_map
 
-        return capacity_map.over_plane(record, plane, at, mode, nodes, output, shared)
-    if at or output is not None:
-        raise UsageError("--at and --output go with --map", hint="add --capacity --map x,z")
+        asked = mode, box, (), "32"
+        return machine_map.over_plane(machine_map.FORCES, record, plane, at, asked, nodes, output, shared)
+    if box or at or output is not None:
+        raise UsageError("--box, --at and --output go with --map", hint="add --capacity --map x,z")
     if capacity and not pose:
         from assur.cli import borne
         from assur.kinematics.pose import pose_of

@@ -66,9 +66,10 @@ def stiffness(
     if plane is not None:
         if pose or no_shear:
             raise UsageError("--map: of poses over a plane, with shear", hint="leave out --pose and --no-shear")
-        from assur.cli import stiffness_map
+        from assur.cli import machine_map
 
-        return stiffness_map.over_plane(record, plane, at, (mode, box, stroke, resolution), nodes, output, shared)
+        asked = mode, box, stroke, resolution
+        return machine_map.over_plane(machine_map.STIFFNESS, record, plane, at, asked, nodes, output, shared)
     if output is not None:
         raise UsageError("--output: only maps are written", hint="add --map, as --map x,z")
     if not pose:

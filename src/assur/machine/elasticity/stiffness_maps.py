@@ -7,14 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.rates.acceleration import joints_in_mode
-from assur.kinematics.status import Status
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.elasticity.structure import structure
 from assur.model.mechanism import MechanismRecord
-from assur.work import stage
-from assur.workspace.fields import inside_at
-from assur.workspace.index_maps import NODES, IndexMaps, map_grid
+from assur.work import Progress
+from assur.workspace.index_maps import NODES, IndexMaps
+from assur.workspace.measured_maps import ChosenNodes, NodeMeasure, measured_maps
 from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
@@ -22,13 +20,13 @@ LEAST, MOTORS = "least_stiffness", "least_stiffness_of_actuators"
 WAYS = ("direction_x", "direction_y", "direction_z")
 
 
-@stage("maps of stiffness")
 def stiffness_maps(
     record: MechanismRecord,
     region: Workspace,
     plane: Sequence[str] | None = None,
     held: Mapping[str, float] | None = None,
     nodes: int = NODES,
+    progress: Progress | None = None,
 ) -> IndexMaps:
     """The least translational stiffness on a grid over the box of a workspace, with its direction in the base's axes.
 
@@ -43,34 +41,20 @@ def stiffness_maps(
     np.float64(10000000.0)
     """
     structure(record)  # what the file lacks is told before anything is solved
-    grid = map_grid(region, plane, held, nodes)
-    inside = inside_at(region.margins, grid.points)
-    points = grid.points[inside]
-    by_form = record.closed_form is not None
-    values = joints_in_mode(record, region.slice.poses(points), region.mode) if by_form else region.joints(points)
-    reached = np.all(np.isfinite(values), axis=-1)
-    inside[inside] = reached
-    solved = stiffness_at(record, values[reached])
+    grid = ChosenNodes(plane, held, nodes)
+    return measured_maps(record, region, lambda values: _measured(record, values), grid, "maps of stiffness", progress)
+
+
+def _measured(record: MechanismRecord, values: FloatArray) -> tuple[NDArray[np.int8], dict[str, NodeMeasure]]:
+    solved = stiffness_at(record, values)
     sizes, ways = solved.translational
     motors = solved.actuator_only.translational[0]
-
-    def spread(part: FloatArray) -> FloatArray:
-        return np.asarray(grid.spread(inside, part, np.nan))
-
     meaning = "least stiffness against a force without moment"
-    maps = {
-        LEAST: grid.map(r"k_{\min}", meaning, "N/m", spread(sizes[:, 0])),
-        MOTORS: grid.map(r"k_{\min}^a", f"{meaning}, if only the actuators gave way", "N/m", spread(motors[:, 0])),
+    told = {
+        LEAST: NodeMeasure(r"k_{\min}", meaning, "N/m", sizes[:, 0]),
+        MOTORS: NodeMeasure(r"k_{\min}^a", f"{meaning}, if only the actuators gave way", "N/m", motors[:, 0]),
     }
     for axis, name in enumerate(WAYS):
-        maps[name] = grid.map(
-            rf"e_{name[-1]}", f"{name[-1]} of the direction of the former", "", spread(ways[:, 0, axis])
-        )
-    return IndexMaps(
-        **grid.header(record, region),
-        status=grid.spread(inside, solved.status, Status.unreachable).reshape(grid.shape),
-        length=None,
-        reach=None,
-        factor=None,
-        maps=maps,
-    )
+        of = f"{name[-1]} of the direction of the former"
+        told[name] = NodeMeasure(rf"e_{name[-1]}", of, "", ways[:, 0, axis])
+    return solved.status, told

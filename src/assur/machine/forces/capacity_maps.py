@@ -7,15 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.rates.acceleration import joints_in_mode
-from assur.kinematics.status import Status
 from assur.machine.forces.capacity import HeldForces, held_forces
 from assur.machine.forces.utilisation import stated
 from assur.model.mechanism import MechanismRecord
-from assur.work import stage
-from assur.workspace.fields import inside_at
-from assur.workspace.index_maps import NODES, IndexMaps, map_grid
-from assur.workspace.mode_fields import CLOSED_FORM
+from assur.work import Progress
+from assur.workspace.index_maps import NODES, IndexMaps
+from assur.workspace.measured_maps import ChosenNodes, NodeMeasure, measured_maps
 from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
@@ -23,13 +20,13 @@ MOST = 0.95
 """Colours end at this quantile of forces, which grow without bound towards some singularities."""
 
 
-@stage("maps of forces")
 def capacity_maps(
     record: MechanismRecord,
     region: Workspace,
     plane: Sequence[str] | None = None,
     held: Mapping[str, float] | None = None,
     nodes: int = NODES,
+    progress: Progress | None = None,
 ) -> IndexMaps:
     """What is held at rest under gravity, at the nodes of a grid over the box of a workspace; NaN outside it.
 
@@ -47,35 +44,25 @@ def capacity_maps(
     >>> list(maps.maps)[:3], maps["sphere"].shape
     (['sphere', 'gravity', 'against x'], (4, 4))
     """
-    grid = map_grid(region, plane, held, nodes)
-    inside = inside_at(region.margins, grid.points)
-    points = grid.points[inside]
-    if region.how == CLOSED_FORM:
-        values = joints_in_mode(record, region.slice.poses(points), region.mode)
-    else:
-        values = region.joints(points)
-    known = np.all(np.isfinite(values), axis=1)
-    inside[np.flatnonzero(inside)[~known]] = False
-    own = held_forces(record, values[known])
+    grid = ChosenNodes(plane, held, nodes)
+    return measured_maps(record, region, lambda values: _measured(record, values), grid, "maps of forces", progress)
+
+
+def _measured(record: MechanismRecord, values: FloatArray) -> tuple[NDArray[np.int8], dict[str, NodeMeasure]]:
+    own = held_forces(record, values)
+    most = np.max(own.utilisation, axis=1)
     told = {
-        "sphere": ((r"F_\min", "largest force that is held in every direction", "N"), own.sphere),
-        "gravity": ((r"u_g", "largest share of an actuator's limit that gravity asks for", ""), _largest(own)),
+        "sphere": NodeMeasure(r"F_\min", "largest force that is held in every direction", "N", own.sphere),
+        "gravity": NodeMeasure(r"u_g", "largest share of an actuator's limit that gravity asks for", "", most),
     }
     for axis, name in enumerate(own.axes):
         for side, (word, sign) in enumerate((("against", "-"), ("along", "+"))):
             symbol, meaning = rf"F_{{{sign}{name}}}", f"largest force that is held {word} {name}"
-            told[f"{word} {name}"] = (symbol, meaning, "N"), own.per_axis[:, axis, side]
+            told[f"{word} {name}"] = NodeMeasure(symbol, meaning, "N", own.per_axis[:, axis, side])
     speed = slowest(record, own)
     if speed is not None:
-        told["speed"] = (r"v_\min", "speed of the platform in its slowest direction", "m/s"), speed
-    return IndexMaps(
-        **grid.header(record, region),
-        status=grid.spread(inside, own.answer.status, Status.unreachable).reshape(grid.shape),
-        length=None,
-        reach=None,
-        factor=None,
-        maps={name: grid.map(*words, grid.spread(inside, part, np.nan)) for name, (words, part) in told.items()},
-    )
+        told["speed"] = NodeMeasure(r"v_\min", "speed of the platform in its slowest direction", "m/s", speed)
+    return own.answer.status, told
 
 
 def slowest(record: MechanismRecord, own: HeldForces) -> FloatArray | None:
@@ -93,13 +80,10 @@ def slowest(record: MechanismRecord, own: HeldForces) -> FloatArray | None:
     if np.isnan(limits).any() or {*own.per_load.shape[1:]} != {len(record.platform.pose)}:
         return None
     per_rate = np.full(own.per_load.shape, np.nan)
-    known = np.flatnonzero(np.abs(np.nan_to_num(np.linalg.det(own.per_load))) > 0.0)
+    known = np.flatnonzero(np.isfinite(own.per_load).all(axis=(1, 2)))
+    known = known[np.linalg.det(own.per_load[known]) != 0.0]
     per_rate[known] = np.swapaxes(np.linalg.inv(own.per_load[known]), -1, -2)  # rates of drives, but for their sign
     return np.asarray(np.min(limits / np.linalg.norm(per_rate, axis=-1), axis=1))
-
-
-def _largest(own: HeldForces) -> FloatArray:
-    return np.asarray(np.max(own.utilisation, axis=1))
 
 
 def tops(maps: IndexMaps) -> dict[str, float]:
