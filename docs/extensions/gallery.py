@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,13 @@ WITHOUT = ("cli", "view", "page", "report", "audit")
 
 
 def markdown(root: Path, name: str, *figures: str) -> str:
-    """A section for each figure of one mechanism; all that it has where none are named."""
-    folder = root / "build" / "gallery" / name
-    return "\n".join(_section(name, item, folder) for item in drawn(root, folder, name, figures))
+    """A section for each figure of one mechanism; all that it has where none are named.
+
+    Where ASSUR_GALLERY is `blank` nothing is computed: titles without captions, above empty pictures.
+    """
+    make, kept = (blank, "blank") if os.environ.get("ASSUR_GALLERY") == "blank" else (drawn, "gallery")
+    folder = root / "build" / kept / name
+    return "\n".join(_section(name, item, folder) for item in make(root, folder, name, figures))
 
 
 def drawn(root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list[dict[str, str]]:
@@ -33,6 +38,21 @@ def drawn(root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list
     context = Context(load_record(name))
     chosen = figures or tuple(names(context.record, context))
     return [_known(folder / item, key) or _draw(context, item, folder / item, key) for item in chosen]
+
+
+def blank(_root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list[dict[str, str]]:
+    """As `drawn`, for who looks at the site alone."""
+    from assur.figures.catalogue import ENTRIES, names
+    from assur.figures.encode import encoded
+    from assur.model.registry import load_record
+    from matplotlib.figure import Figure
+
+    folder.mkdir(parents=True, exist_ok=True)
+    titles = {entry.name: entry.title for entry in ENTRIES}
+    chosen = figures or tuple(names(load_record(name)))
+    for item in chosen:
+        (folder / f"{item}.png").write_bytes(encoded(Figure(figsize=(1, 1)), "png"))
+    return [{"name": item, "title": titles[item], "caption": ""} for item in chosen]
 
 
 def _known(stem: Path, key: str) -> dict[str, str] | None:
@@ -73,7 +93,7 @@ def _section(mechanism: str, figure: dict[str, str], folder: Path) -> str:
     return f"""
 ## {title[:1].upper()}{title[1:]}
 
-![{title} of {mechanism}](../{folder.parent.parent.name}/gallery/{mechanism}/{name}.png)
+![{title} of {mechanism}](../{folder.relative_to(folder.parents[2]).as_posix()}/{name}.png)
 
 {figure["caption"]}
 
