@@ -27,7 +27,11 @@ def test_the_site_builds_and_is_whole(tmp_path, browser, pictures):
     site = tmp_path / "site"
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-E", "-q", "-d", tmp_path / "trees", "docs", site]
     ran = subprocess.run(
-        command, cwd=ROOT, capture_output=True, text=True, env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "ASSUR_GALLERY": pictures}
+        command,
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "ASSUR_GALLERY": pictures},
     )
     assert (ran.returncode, ran.stdout, ran.stderr) == (0, "", "")
     pages = {path: path.read_text(encoding="utf-8") for path in site.rglob("*.html")}

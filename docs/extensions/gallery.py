@@ -42,10 +42,11 @@ def drawn(root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list
 
 def blank(_root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list[dict[str, str]]:
     """As `drawn`, for who looks at the site alone."""
+    from matplotlib.figure import Figure
+
     from assur.figures.catalogue import ENTRIES, names
     from assur.figures.encode import encoded
     from assur.model.registry import load_record
-    from matplotlib.figure import Figure
 
     folder.mkdir(parents=True, exist_ok=True)
     titles = {entry.name: entry.title for entry in ENTRIES}

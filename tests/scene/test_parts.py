@@ -4,9 +4,11 @@ import numpy as np
 
 import assur
 from assur.joints.universal import UNIVERSAL
+from assur.kinematics.home import home_values
+from assur.scene.bodies import bodies
 from assur.scene.companion import Companion
 from assur.scene.mesh import rgb
-from assur.scene.parts import link_layers, model, parts, unit
+from assur.scene.parts import link_layers, machine, model, parts, placed, unit
 from assur.scene.skeleton import link_point, skeleton
 from assur.scene.yokes import ASIDE, trimmed, yokes
 
@@ -22,7 +24,7 @@ def test_links_that_are_hinged_together_lie_in_different_layers(every):
 
 
 def test_every_joint_is_inside_the_model(every):
-    points = model(every.skeleton, every.companion).corners.reshape(-1, 3)
+    points = model(every.skeleton).corners.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
     for mark in every.skeleton.marks:
         assert np.all(mark.at > low - 1e-9)
@@ -37,7 +39,7 @@ def test_bars_are_as_long_as_the_joint_graph_says(every):
     for rod in every.skeleton.rods:
         if rod.size < 4 * size or rod.link == every.record.platform.link:
             continue
-        mesh = model(every.skeleton, every.companion, {rod.link: "#010203"})
+        mesh = model(every.skeleton, {rod.link: "#010203"})
         own = mesh.corners[np.all(np.isclose(mesh.colour, rgb("#010203")), axis=1)].reshape(-1, 3)
         along = (rod.points[1] - rod.points[0]) / rod.size
         short = ASIDE * size if rod.link in stubs else 0.0
@@ -55,7 +57,7 @@ def test_a_leg_of_no_length_is_drawn():
     values[sliders] = 0.0
     short = skeleton(record, Companion(), values)
     assert any(mark.telescopes and np.array_equal(mark.at, mark.rail) for mark in short.marks)
-    found = model(short, Companion())
+    found = placed(parts(short, Companion()), short)
     assert np.all(np.isfinite(found.corners))
     np.testing.assert_allclose(np.linalg.norm(found.normals, axis=2), 1.0, atol=1e-9)
 
@@ -65,7 +67,7 @@ def test_a_mechanism_in_one_point_has_a_size():
     whole = skeleton(record, Companion(), record.home_values)
     point = replace(whole, rods=(), plates=(), marks=tuple(replace(mark, at=np.zeros(3)) for mark in whole.marks))
     assert unit(point) > 0.0
-    mesh = model(point, Companion())
+    mesh = placed(parts(point, Companion()), point)
     assert np.all(np.isfinite(mesh.corners))
     assert np.all(np.ptp(mesh.corners.reshape(-1, 3), axis=0) > 0.0)
 
@@ -93,3 +95,24 @@ def test_every_part_is_of_a_link_and_every_joint_has_one(every):
     assert {item.link for item in solids} <= set(every.record.links)
     for joint in every.record.joints:
         assert any(item.name.startswith(joint) for item in solids), joint
+
+
+def test_it_is_one_machine_in_every_configuration(every):
+    """A figure of another configuration has the vertices of the page, of the view and of the prototype, moved."""
+    record = every.record
+    moved = skeleton(record, every.companion, home_values(record) + 0.05)
+    drawn = model(moved).corners
+    shapes = [part.shape.mesh(part.colour).corners for part in machine(record)]
+    first = 0
+    for part, own in zip(machine(record), shapes, strict=True):
+        rotation, origin = moved.frames[part.link]
+        np.testing.assert_allclose(drawn[first : first + len(own)], own @ rotation.T + origin, atol=1e-9 * moved.size)
+        first += len(own)
+    assert first == len(drawn)
+    assert [part.name for body in bodies(record) for part in (*body.fused, *body.pins)] == [
+        part.name for link in record.links for part in _pins_last(machine(record), link)
+    ]
+
+
+def _pins_last(made, link):
+    return sorted((part for part in made if part.link == link), key=lambda part: part.role == "pin")

@@ -2,6 +2,10 @@
 
 import numpy as np
 
+import assur
+from assur.scene.bodies import home_skeleton
+from assur.scene.companion import companion
+from assur.scene.parts import machine
 from assur.scene.rails import rails
 
 
@@ -13,6 +17,25 @@ def test_sliders_are_on_their_rails(every):
 
 
 def distance(point, rail):
-    start, end = rail
+    start, end = rail.ends
     share = np.clip((point - start) @ (end - start) / ((end - start) @ (end - start)), 0, 1)
     return np.linalg.norm(start + share * (end - start) - point)
+
+
+def test_rails_lie_about_the_sliders_and_not_about_the_point_where_their_axes_meet():
+    record = assur.load("orthoglide")
+    drawn = home_skeleton(record)
+    platform, origin = drawn.frames[record.platform.link]
+    place = origin + platform @ record.platform.point
+    for rail in rails(drawn, companion(record)):
+        assert np.min(np.linalg.norm(rail.ends - place, axis=1)) > 0.5 * np.linalg.norm(rail.sliders[0].at - place)
+
+
+def test_what_a_base_stands_on_reaches_under_every_rail(every):
+    parts = machine(every.record)
+    (plate,) = [part.shape for part in parts if part.name == "base plate"] or [None]
+    if plate is not None:
+        low, high = plate.outline.min(axis=0)[:2], plate.outline.max(axis=0)[:2]
+        for rail in rails(every.skeleton, every.companion):
+            assert np.all(rail.ends[:, :2] >= low)
+            assert np.all(rail.ends[:, :2] <= high)

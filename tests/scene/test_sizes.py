@@ -81,7 +81,7 @@ def test_one_that_is_none_is_refused_with_what_it_is_if_left_out(value):
 def test_the_largest_one_is_drawn(every):
     largest = MOST * every.skeleton.size
     thick = with_thickness(every.record, largest)
-    mesh = model(skeleton(thick, every.companion, home_values(thick)), every.companion)
+    mesh = model(skeleton(thick, every.companion, home_values(thick)))
     assert np.all(np.isfinite(mesh.corners))
 
 

@@ -20,12 +20,11 @@ from assur.figures.solid import HALO, model_camera, paste, triad
 from assur.figures.spec import Drawing
 from assur.figures.style import BLUE, INK, LETTER, ORANGE, PAGE, PAPER, RED, TEXT
 from assur.model.mechanism import MechanismRecord
-from assur.scene.bodies import home_skeleton
 from assur.scene.camera import Camera, orthographic
 from assur.scene.collisions import Nearest, ends
 from assur.scene.mesh import Mesh
 from assur.scene.part import Part
-from assur.scene.parts import parts, placed
+from assur.scene.parts import machine, placed
 from assur.scene.sizes import thickness
 from assur.scene.skeleton import Skeleton, skeleton
 
@@ -85,8 +84,7 @@ def drawn(record: MechanismRecord, nearest: Nearest) -> Drawing:
 def _coloured(context: Context, pair: Nearest) -> tuple[Part, ...]:
     """Every part, those of the two links in their colours and all others pale."""
     own = dict(zip(pair.links, PAIR, strict=True))
-    made = parts(home_skeleton(context.record, context.companion), context.companion)
-    return tuple(replace(part, colour=own.get(part.link, MUTED)) for part in made)
+    return tuple(replace(part, colour=own.get(part.link, MUTED)) for part in machine(context.record))
 
 
 def _heading(page: Canvas, record: MechanismRecord, pair: Nearest) -> None:

@@ -55,7 +55,7 @@ def scene_of(context: Context, examples: Sequence[SingularExample]) -> Scene:
     colours = dict.fromkeys(accented(found, body), ACCENT)
     if colours:
         colours = dict.fromkeys(context.record.links, MUTED) | colours
-    mesh = model(body, context.companion, colours)
+    mesh = model(body, colours)
     return Scene(examples, body, found, mesh, model_camera(context))
 
 

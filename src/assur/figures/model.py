@@ -47,7 +47,7 @@ def _draw(context: Context) -> Drawing:
     )
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
-    ends = [point for rail in rails(skeleton, companion) for point in rail]
+    ends = [point for rail in rails(skeleton, companion) for point in rail.ends]
     if len(ends) > 2:
         page.polygon(hull(view(np.array(ends))), "none", GREY, 0.5, 0.5, linestyle=(0, (4, 3)))
     draw_bodies(page, view, skeleton, letters, Pen(width=1.5, symbol=0.75, colours=chain_colours(skeleton)))

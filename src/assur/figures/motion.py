@@ -29,7 +29,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.scene.mesh import Mesh, box, joined, rgb
 from assur.scene.motion import closed_motion
 from assur.scene.part import Part
-from assur.scene.parts import parts, placed, unit
+from assur.scene.parts import machine, placed, unit
 from assur.scene.skeleton import Skeleton, skeleton
 from assur.work import Progress
 
@@ -102,7 +102,7 @@ def film(
     values = values[:-1]
     context = Context(record)
     bodies = [skeleton(record, context.companion, row) for row in values]
-    solids = parts(skeleton(record, context.companion, home_values(record)), context.companion)
+    solids = machine(record)
     view, sides = _view(context, solids, bodies, size)
     trace = _trace(bodies)
     pictures = []

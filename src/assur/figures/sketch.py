@@ -82,8 +82,8 @@ def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, 
 
 def draw_ground(page: Canvas, view: View, skeleton: Skeleton, companion: Companion, letters: Letters) -> None:
     """Hatched rails of sliding joints and supports of turning ones on the base; coaxial rails are one."""
-    for start, end in rails(skeleton, companion):
-        ends = view(np.array([start, end]))
+    for rail in rails(skeleton, companion):
+        ends = view(rail.ends)
         below = view.camera.project(DOWN)
         below = below if np.linalg.norm(below) > 1e-9 else np.array([0.0, -1.0])
         ground_rail(page, ends[0], ends[1], 1.0, below)
@@ -101,7 +101,7 @@ def _points_of(skeleton: Skeleton, link: str) -> list[FloatArray]:
 
 def cloud_of(skeleton: Skeleton, companion: Companion) -> FloatArray:
     """Every point (k, 3) that must be on the page, ends of the rails included."""
-    ends = [point for rail in rails(skeleton, companion) for point in rail]
+    ends = [point for rail in rails(skeleton, companion) for point in rail.ends]
     return np.concatenate([skeleton.cloud, np.array(ends).reshape(-1, 3)])
 
 

@@ -20,6 +20,7 @@ from assur.figures.raster import SAMPLES, Buffers, filled, lit
 from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
 from assur.results.typeset_text import minus
+from assur.scene.bodies import home_skeleton
 from assur.scene.camera import Camera, orthographic
 from assur.scene.letters import lettered
 from assur.scene.mesh import Mesh
@@ -72,18 +73,29 @@ def _hangs(skeleton: Skeleton) -> bool:
 
 def _draw(context: Context) -> Drawing:
     camera = model_camera(context)
-    mesh = model(context.skeleton, context.companion)
+    body = _within_strokes(context)
+    mesh = model(body)
     view, page = fitted(camera, mesh.corners.reshape(-1, 3), min(120, context.page), 120, margin=7)
     drawn = paste(page, mesh, view)
     letters = Letters(page)
     for line in np.concatenate([drawn.lines.outlines, drawn.lines.creases]):
         if np.linalg.norm(line[1] - line[0]) > LONG:
             letters.avoid(line)
-    name_points(page, view, context.skeleton, letters, drawn)
+    name_points(page, view, body, letters, drawn)
     triad(page, camera, np.array([22.0, 20.0]))
     letters.avoid_box(np.array([[0.0, 0.0], [46.0, 46.0]]))
     letters.place()
-    return Drawing(page.figure, _data(context, context.skeleton))
+    return Drawing(page.figure, _data(context, body))
+
+
+def _within_strokes(context: Context) -> Skeleton:
+    """The configuration that is drawn; home where its drives do not go so far, as a leg would come apart."""
+    record, drawn = context.record, context.skeleton
+    for item in record.inputs:
+        value = float(item.printed(drawn.values[item.coordinate.index]))
+        if item.stroke and not item.stroke[0] <= value <= item.stroke[1]:
+            return home_skeleton(record, context.companion)
+    return drawn
 
 
 @dataclass(frozen=True, eq=False)

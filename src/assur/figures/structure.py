@@ -65,7 +65,7 @@ def _name_links(context: Context, view: View, skeleton: Skeleton, letters: Lette
     for plate in skeleton.plates:
         letters.add(view(plate.points.mean(axis=0)), plate.label or words(plate.link), clear=0.0, **style)
     base = context.companion.links.get(skeleton.record.base, words(skeleton.record.base))
-    feet = [(view(end), 7.0) for _, end in rails(skeleton, context.companion)]
+    feet = [(view(rail.end), 7.0) for rail in rails(skeleton, context.companion)]
     feet += [(view(mark.at) - [0.0, 11.0], 6.0) for mark in skeleton.marks if mark.grounded and not mark.slides]
     for foot, clear in feet[: None if base.isdigit() else 1]:  # a word would fill the page
         letters.add(foot, base, clear=clear, **style)
@@ -133,7 +133,7 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
             {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points} for rod in skeleton.rods
         ],
         "plates": [{"link": plate.link, "points": plate.points} for plate in skeleton.plates],
-        "rails": [np.array(rail) for rail in rails(skeleton, context.companion)],
+        "rails": [rail.ends for rail in rails(skeleton, context.companion)],
     }
 
 

@@ -24,7 +24,7 @@ from assur.page.ranges import input_ranges, pose_ranges
 from assur.scene.companion import companion
 from assur.scene.layers import Layer
 from assur.scene.letters import letters
-from assur.scene.parts import parts
+from assur.scene.parts import machine
 from assur.scene.skeleton import skeleton
 from assur.work import stage
 
@@ -77,7 +77,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "home": home.tolist(),
         "branches": branches(record),
         "modes": modes(record),
-        "parts": _parts(parts(body, drawn), body.size),
+        "parts": _parts(machine(record), body.size),
         "letters": [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in letters(body)],
         "layers": [_layer(item) for item in layers],
         "layersNote": layers_note,

@@ -6,16 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.border import checked_poses, inputs_of
+from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
-from assur.kinematics.position import inverse
 from assur.kinematics.turns import counted, lasting_relations
 from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION
+from assur.scene.strokes import inputs_over_box
 
 FloatArray = NDArray[np.float64]
-SAMPLES = 2000
 PAD = 0.02
 """A slider goes beyond what the workspace needs by this share of it, and on to a round number."""
 
@@ -35,7 +34,7 @@ def input_ranges(record: MechanismRecord) -> list[list[float]]:
     True
     """
     home = inputs_of(record, home_values(record))
-    needed = _needed(record, home)
+    needed = inputs_over_box(record)
     return [_range(record, item, float(home[k]), needed[:, k]) for k, item in enumerate(record.inputs)]
 
 
@@ -75,16 +74,6 @@ def _around(record: MechanismRecord, name: str, home: float) -> tuple[float, flo
         return whole_turn(home)
     half = characteristic_length(record)
     return _outward(home - half, home + half)
-
-
-def _needed(record: MechanismRecord, home: FloatArray) -> FloatArray:
-    """Printed inputs (N, n) at poses spread over the file's box, in the default working mode; only home without."""
-    if record.closed_form is None or not all(name in record.box for name in record.platform.pose):
-        return home[None]
-    low, high = np.array([record.box[name] for name in record.platform.pose]).T
-    poses = checked_poses(record, np.random.default_rng(0).uniform(low, high, size=(SAMPLES, len(low))))
-    found = inverse(record, poses, record.modes.default_working or None)
-    return np.concatenate([home[None], found.inputs[found.exists]])
 
 
 def _range(record: MechanismRecord, driven: Input, home: float, needed: FloatArray) -> list[float]:

@@ -18,7 +18,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.scene.companion import Companion
 from assur.scene.companion import companion as companion_of
 from assur.scene.part import Part
-from assur.scene.parts import parts, unit
+from assur.scene.parts import machine, unit
 from assur.scene.shapes import Ball, Cuboid, Cylinder, Shape
 from assur.scene.skeleton import Skeleton, skeleton
 
@@ -61,7 +61,7 @@ def bodies(record: MechanismRecord) -> tuple[LinkBody, ...]:
     """
     names = companion_of(record)
     drawn = home_skeleton(record, names)
-    made = parts(drawn, names)
+    made = machine(record)
     collected = []
     for link in record.links:
         of_link = [part for part in made if part.link == link]

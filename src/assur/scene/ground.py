@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion
+from assur.scene.hull import hull
 from assur.scene.joining import stand
 from assur.scene.part import DARK, PLATE, STEEL, Part
-from assur.scene.rails import rails
-from assur.scene.shapes import Cuboid
+from assur.scene.rails import Rail, rails
+from assur.scene.shapes import Cuboid, Cylinder, Slab
 from assur.scene.skeleton import JointMark, Skeleton
 from assur.scene.yokes import Yoke
 
@@ -25,6 +26,16 @@ WAYS = 12
 
 THICKEST = 1.6
 """What is drawn about points that a plate must not hide reaches so far, in thicknesses."""
+
+HIGH = 6.0
+"""A rail whose lower end is higher above the plate than so many thicknesses has a column."""
+
+UNDER, FREE, BESIDE = 6.0, 5.0, 3.0
+"""How far a plate lies below what hangs between its columns; room between a rod and a column below an upright rail, and
+below the end of another, in thicknesses."""
+
+CORNERS, FILLS = 12, 0.8
+"""Corners about a foot of a plate; a plate that fills more than this share of its rectangle is one."""
 
 UPRIGHT = 0.9
 """An axis whose cosine to Z is above it is upright: its joint stands on a pillar."""
@@ -43,30 +54,34 @@ def ground(
         reach: half the length of a joint's pin, in thicknesses.
     """
     base = skeleton.record.base
-    ends, lowest = rails(skeleton, companion), 1.6
+    laid, lowest = rails(skeleton, companion), 1.6
     feet = [mark.at for mark in skeleton.marks if mark.grounded and not mark.slides]
     deep = depth(skeleton, size)
-    for k, (start, end) in enumerate(ends, 1):
-        slider = next(mark for mark in skeleton.marks if _runs_on(mark, start, end))
-        side, up = bed(skeleton, slider, deep)
-        sides = np.array([(end - start) / 2, 0.8 * size * side, 0.95 * size * up])
-        yield Part(f"rail {k}", base, Cuboid((start + end) / 2 - (0.65 * size + deep) * up, sides), STEEL, "rail")
+    for k, rail in enumerate(laid, 1):
+        side, up = bed(skeleton, rail.sliders[0], deep)
+        sides = np.array([(rail.end - rail.start) / 2, 0.8 * size * side, 0.95 * size * up])
+        middle = (rail.start + rail.end) / 2 - (0.65 * size + deep) * up
+        yield Part(f"rail {k}", base, Cuboid(middle, sides), STEEL, "rail")
         lowest = max(lowest, float(1.6 + deep / size * up[2]))
-        feet += [start, end]
-    drop = _drop(skeleton, np.array(feet), lowest if ends else None, size) if feet else None
+        feet += [rail.start, rail.end]
+    drop = _drop(skeleton, np.array(feet), lowest if laid else None, size) if feet else None
     if drop is None:
         for yoke in forks:
             if yoke.link == base:
                 for role, shape in yoke.shapes(size):
                     yield Part(f"{yoke.joint} {role}", base, shape, DARK, role, yoke.joint)
         return
-    low, high = np.min(feet, axis=0) - 3.2 * size, np.max(feet, axis=0) + 3.2 * size
-    high[2] = (np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size
-    low[2] = high[2] - 1.3 * size
-    yield Part("base plate", base, Cuboid((low + high) / 2, np.diag((high - low) / 2)), PLATE, "plate")
+    top = float((np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size)
+    columns = [shape for rail in laid for shape in _columns(skeleton, rail, top, size)]
+    feet += [shape.start for shape in columns]
+    outline = _outline(np.array(feet)[:, :2], 3.2 * size, bool(laid))
+    corners = np.column_stack([outline, np.full(len(outline), top - 1.3 * size)])
+    yield Part("base plate", base, Slab(corners, np.array([0.0, 0.0, 1.3 * size])), PLATE, "plate")
+    for k, shape in enumerate(columns, 1):
+        yield Part(f"column {k}", base, shape, DARK, "column")
     for mark in skeleton.marks:
         if mark.grounded and not mark.slides and not upright(mark):
-            height = (low[2] + 1.15 * size if drop > 0 else high[2] - 1.15 * size) - mark.at[2]
+            height = (top - (0.15 if drop > 0 else 1.15) * size) - mark.at[2]
             for shape in stand(mark, np.array([0.0, 0.0, height]), (reach(mark) - 0.4) * size, size):
                 yield Part(f"{mark.joint.name} stand", base, shape, DARK, "stand", mark.joint.name)
 
@@ -74,16 +89,66 @@ def ground(
 def _drop(skeleton: Skeleton, feet: FloatArray, lowest: float | None, size: float) -> float | None:
     """How far the plate lies below the feet (k, 3), in thicknesses, negative where they hang; None without a plate.
 
-    `lowest` is how far rails reach below their sliders, in thicknesses; None where there are none.
+    `lowest` is how far rails reach below their sliders, in thicknesses; None where there are none. Rails stand on
+    columns where something hangs below them.
     """
     drop = 4.0 if lowest is None else lowest
     others = [rod.points for rod in skeleton.rods if not _on_base(skeleton, rod.link)]
     others += [plate.points for plate in skeleton.plates if not _on_base(skeleton, plate.link)]
     low = min((float(np.min(points[:, 2])) for points in others), default=np.inf) - THICKEST * size
-    if min(low, np.min(skeleton.cloud[:, 2])) >= np.min(feet[:, 2]) - drop * size:
+    low = min(low, float(np.min(skeleton.cloud[:, 2])))
+    foot = float(np.min(feet[:, 2]))
+    if low >= foot - drop * size:
         return drop
+    if lowest is not None:
+        return (foot - low) / size + UNDER
     hangs = np.max(skeleton.cloud[:, 2]) <= np.max(feet[:, 2]) + size
-    return None if lowest is not None or not hangs or np.ptp(feet[:, 2]) > size else -drop - 1.3
+    return None if not hangs or np.ptp(feet[:, 2]) > size else -drop - 1.3
+
+
+def _outline(feet: FloatArray, margin: float, railed: bool) -> FloatArray:
+    """Outline (k, 2) of a plate about feet (n, 2): a rectangle under rails, else what surrounds them."""
+    low, high = feet.min(axis=0) - margin, feet.max(axis=0) + margin
+    rectangle = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
+    if railed:
+        return rectangle
+    turns = 2 * np.pi * (np.arange(CORNERS) + 0.5) / CORNERS
+    round_feet = feet[:, None] + margin * np.column_stack([np.cos(turns), np.sin(turns)]) / np.cos(np.pi / CORNERS)
+    around = hull(round_feet.reshape(-1, 2))
+    sides = np.roll(around, -1, axis=0)
+    area = 0.5 * abs(float(np.sum(around[:, 0] * sides[:, 1] - around[:, 1] * sides[:, 0])))
+    return around if area < FILLS * float(np.prod(high - low)) else rectangle
+
+
+def _columns(skeleton: Skeleton, rail: Rail, top: float, size: float) -> Iterator[Cylinder]:
+    """What holds a rail that is high above the plate: under its ends, from one of them aside where it is upright."""
+    lower, upper = sorted(rail.ends, key=lambda end: float(end[2]))
+    if lower[2] - top < HIGH * size:
+        return
+    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
+
+    def room(start: FloatArray, end: FloatArray) -> float:
+        return float(np.min(segment_distances(start, end, moving[:, 0], moving[:, 1]), initial=np.inf))
+
+    below = [np.array([*end[:2], top]) for end in rail.ends]
+    way = (upper - lower) / np.linalg.norm(upper - lower)
+    if abs(float(way[2])) < UPRIGHT:
+        rooms = [room(foot, end) for foot, end in zip(below, rail.ends, strict=True)]
+        for foot, end, free in zip(below, rail.ends, rooms, strict=True):
+            if free > BESIDE * size or free == max(rooms):
+                yield Cylinder(foot, end, size)
+        return
+    foot = np.array([*lower[:2], top])
+    if room(foot, lower) > FREE * size:
+        yield Cylinder(foot, lower, size)
+        return
+    middle = skeleton.cloud[:, :2].mean(axis=0)
+    far = np.linalg.norm(skeleton.cloud[:, :2] - middle, axis=1).max() + FREE * size
+    turns = 2 * np.pi * np.arange(WAYS) / WAYS
+    heads = [np.array([*(middle + far * np.array([np.cos(turn), np.sin(turn)])), upper[2]]) for turn in turns]
+    head = max(heads, key=lambda at: room(np.array([*at[:2], top]), at) + room(at, upper))
+    yield Cylinder(np.array([*head[:2], top]), head, size)
+    yield Cylinder(head, upper, size)
 
 
 def _on_base(skeleton: Skeleton, link: str) -> bool:
@@ -107,13 +172,6 @@ def held(skeleton: Skeleton, slider: JointMark, size: float) -> list[JointMark]:
 
 def _railed(mark: JointMark) -> bool:
     return mark.slides and mark.grounded
-
-
-def _runs_on(mark: JointMark, start: FloatArray, end: FloatArray) -> bool:
-    """Whether a slider is one of a rail between two points (3,)."""
-    way = (end - start) / np.linalg.norm(end - start)
-    middle = np.allclose(mark.rail, (start + end) / 2, atol=1e-6 * float(np.linalg.norm(end - start)))
-    return _railed(mark) and middle and abs(float(mark.axes[0] @ way)) > 1.0 - 1e-9
 
 
 def bed(skeleton: Skeleton, slider: JointMark, deep: float) -> tuple[FloatArray, FloatArray]:

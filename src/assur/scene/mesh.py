@@ -34,6 +34,10 @@ class Mesh:
     patch: NDArray[np.int64]
     colour: FloatArray
 
+    def moved(self, rotation: FloatArray, origin: FloatArray) -> Mesh:
+        """The same triangles where their frame has an orientation (3, 3) and an origin (3,)."""
+        return Mesh(self.corners @ rotation.T + origin, self.normals @ rotation.T, self.patch, self.colour)
+
 
 def joined(meshes: Sequence[Mesh]) -> Mesh:
     """All in one, with patches of their own."""

@@ -25,7 +25,7 @@ class Part:
         shape: in the frame of that link, in the mechanism's unit.
         colour: "#rrggbb".
         role: what it does: bar, web, plate, post, stand, pin, ball, arm, bridge, tube, rod, collar, carriage, rail,
-            pillar.
+            pillar, motor, column.
         joint: the joint that it belongs to, "" where none.
     """
 

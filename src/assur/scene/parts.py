@@ -8,19 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.home import home_values
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion
+from assur.scene.companion import companion as companion_of
 from assur.scene.ground import bed, depth, ground, held, upright
 from assur.scene.hull import hull
 from assur.scene.joining import posts, stand, webs
 from assur.scene.mesh import Mesh, joined
 from assur.scene.part import DARK, DRIVE, LINKS, PLAIN, STAGE, STEEL, Part
 from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
-from assur.scene.sizes import thickness
+from assur.scene.sizes import USUAL, thickness
 from assur.scene.skeleton import JointMark, Rod, Skeleton
+from assur.scene.skeleton import skeleton as skeleton_at
+from assur.scene.telescopes import telescope
 from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
 
 FloatArray = NDArray[np.float64]
@@ -30,11 +37,8 @@ FLAT = 0.1
 DEEP = 0.2
 """A platform that is thicker than this share of its length is drawn by its bars alone."""
 
-TUBE, ROD = 0.62, 0.9
-"""Lengths of the two parts of a leg that grows longer, as shares of its length."""
-
-SHORT, SHAFT = 3.0, 8.0
-"""A leg that is shorter than this has a shaft through its collar, of this half length, in units of `unit`."""
+MOTOR, ROOMY = 4.5, 6.0
+"""How far a motor reaches beyond the stand of its hinge, and the room that a thicker one asks for, in thicknesses."""
 
 LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
 THICK = (1.0, 0.7, 0.7)
@@ -46,8 +50,20 @@ def unit(skeleton: Skeleton) -> float:
     return thickness(skeleton.record)
 
 
-def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> tuple[Part, ...]:
-    """Every solid, as it is made for this configuration; `accents` gives links another colour than their chain's.
+@lru_cache(maxsize=64)
+def machine(record: MechanismRecord) -> tuple[Part, ...]:
+    """Every solid of a mechanism, made once, at home: whatever is drawn or exported moves these with their links.
+
+    >>> from assur.model.registry import load_record
+    >>> sorted({item.role for item in machine(load_record("fivebar")) if item.link == "base"})
+    ['motor', 'pin', 'plate']
+    """
+    names = companion_of(record)
+    return parts(skeleton_at(record, names, home_values(record)), names)
+
+
+def parts(skeleton: Skeleton, companion: Companion) -> tuple[Part, ...]:
+    """Every solid, as it is made for one configuration, each in the frame of its link.
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
@@ -58,20 +74,29 @@ def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] |
     ['bar A1 B1', 'B1 pin']
     """
     cut = []
-    for part in _placed(skeleton, companion, {**_chain_colours(skeleton), **(accents or {})}):
+    for part in _placed(skeleton, companion, _chain_colours(skeleton)):
         rotation, origin = skeleton.frames[part.link]
         cut.append(replace(part, shape=part.shape.moved(rotation.T, -rotation.T @ origin)))
     return tuple(cut)
 
 
-def model(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> Mesh:
-    """The whole mechanism as one mesh in the base frame."""
-    return placed(parts(skeleton, companion, accents), skeleton)
+def model(skeleton: Skeleton, accents: Mapping[str, str] | None = None) -> Mesh:
+    """The machine where a configuration has its links; `accents` gives links another colour than their chain's."""
+    made = machine(skeleton.record)
+    if accents:
+        own = _chain_colours(skeleton)
+        made = tuple(
+            replace(part, colour=accents.get(part.link, part.colour))
+            if part.colour == own.get(part.link, PLAIN)
+            else part
+            for part in made
+        )
+    return placed(made, skeleton)
 
 
 def placed(solids: tuple[Part, ...], skeleton: Skeleton) -> Mesh:
     """Parts as one mesh in the base frame, where this configuration has their links."""
-    return joined([part.shape.moved(*skeleton.frames[part.link]).mesh(part.colour) for part in solids])
+    return joined([part.shape.mesh(part.colour).moved(*skeleton.frames[part.link]) for part in solids])
 
 
 def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]) -> Iterator[Part]:
@@ -169,7 +194,27 @@ def _joint(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> It
         yield Part(f"{joint.name} pin", joint.parent, shape, colour, "pin", joint.name)
     if mark.grounded and not mark.slides and upright(mark):
         foot = Cylinder(mark.at - [0, 0, 4.6 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
-        yield Part(f"{joint.name} pillar", skeleton.record.base, foot, colour, "pillar", joint.name)
+        role = "motor" if mark.driven else "pillar"
+        yield Part(f"{joint.name} {role}", skeleton.record.base, foot, colour, role, joint.name)
+    elif mark.grounded and mark.driven and joint.type.turns == 1 and not mark.slides:
+        shape = _motor(skeleton, mark, layers)
+        yield Part(f"{joint.name} motor", skeleton.record.base, shape, DRIVE, "motor", joint.name)
+
+
+def _motor(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Cylinder:
+    """On the pin of a driven hinge of the base, on that side of its stand where what moves leaves more room."""
+    size, axis = unit(skeleton), mark.axes[0]
+    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
+    near = (_reach(mark, layers, True) + 0.1) * size
+
+    def room(sense: float) -> float:
+        first, last = (mark.at + sense * (near + far * size) * axis for far in (1.0, MOTOR))
+        return float(np.min(segment_distances(first, last, moving[:, 0], moving[:, 1]), initial=np.inf))
+
+    sense = max((1.0, -1.0), key=room)
+    thick = float(np.clip(room(sense) / ROOMY, size, USUAL * skeleton.size))
+    start = mark.at + sense * near * axis
+    return Cylinder(start, start + sense * (MOTOR - 1.0) * thick * axis, 1.6 * thick)
 
 
 def _reach(mark: JointMark, layers: Mapping[str, int], stands: bool) -> float:
@@ -199,12 +244,9 @@ def _slider(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> I
     colour = DRIVE if mark.driven else PLAIN
     where, link, name = mark.at, joint.child, "carriage"
     if mark.telescopes:
-        way = mark.at - mark.rail
-        where, link, name = mark.rail + TUBE * way, joint.parent, "collar"
-        tube = Cylinder(mark.rail, where, 0.8 * size)
+        tube, rod = telescope(skeleton, mark, size)
+        where, link, name = tube.end, joint.parent, "collar"
         yield Part(f"{joint.name} tube", joint.parent, tube, STEEL, "tube", joint.name)
-        back, ahead = (SHAFT * size * axis,) * 2 if np.linalg.norm(way) < SHORT * size else (ROD * way, 0.0 * way)
-        rod = Cylinder(mark.at - back, mark.at + ahead, 0.5 * size)
         yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
     sides = size * np.array([2.6 * axis, 1.9 * side, 1.15 * up] if not deep else [3.2 * axis, 3.2 * side, 1.15 * up])
     middle = where + (0.1 * size - deep) * up

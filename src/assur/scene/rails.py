@@ -2,35 +2,86 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.home import home_values
 from assur.scene.companion import Companion
 from assur.scene.companion import length as formula_value
 from assur.scene.skeleton import JointMark, Skeleton
+from assur.scene.strokes import strokes
 
 FloatArray = NDArray[np.float64]
-LEAST = 0.2
-"""Half the length of a rail without strokes, as a share of the mechanism's size."""
+HALF, BEYOND = 0.24, 0.06
+"""Half the length of a rail without strokes, and how far it goes beyond one, as shares of the mechanism's size."""
 
 
-def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, FloatArray]]:
-    """Ends (3,) of the rails on the base, each once though several sliders may run on it."""
-    marks = [mark for mark in skeleton.marks if mark.grounded and mark.slides]
-    half = _half(skeleton, companion, marks) if marks else 0.0
-    half = max([half, *(1.06 * float(np.linalg.norm(mark.at - mark.rail)) for mark in marks)])
-    ends: list[tuple[FloatArray, FloatArray]] = []
-    for mark in marks:
-        start, end = mark.rail - half * mark.axes[0], mark.rail + half * mark.axes[0]
-        if not any(np.allclose(np.sort([start, end], axis=0), np.sort(rail, axis=0)) for rail in ends):
-            ends.append((start, end))
-    return ends
+@dataclass(frozen=True, eq=False)
+class Rail:
+    """What sliders run on: its ends (3,) in the base frame, and those sliders."""
+
+    start: FloatArray
+    end: FloatArray
+    sliders: tuple[JointMark, ...]
+
+    @property
+    def ends(self) -> FloatArray:
+        """Both ends (2, 3)."""
+        return np.array([self.start, self.end])
 
 
-def _half(skeleton: Skeleton, companion: Companion, marks: list[JointMark]) -> float:
-    """Half the length of a drawn rail: the companion's, else what the sliders and their strokes need."""
+def rails(skeleton: Skeleton, companion: Companion) -> list[Rail]:
+    """The rails on the base; sliders whose ways overlap share one."""
+    home = home_values(skeleton.record)
+    found: list[Rail] = []
+    for mark in skeleton.marks:
+        if mark.grounded and mark.slides:
+            low, high = _way(skeleton, companion, mark, home)
+            new = Rail(mark.rail + low * mark.axes[0], mark.rail + high * mark.axes[0], (mark,))
+            shared = next((rail for rail in found if _overlap(rail, new, skeleton.size)), None)
+            if shared:
+                found.remove(shared)
+                new = _joined(shared, new)
+            found.append(new)
+    return found
+
+
+def _way(skeleton: Skeleton, companion: Companion, mark: JointMark, home: FloatArray) -> tuple[float, float]:
+    """From where to where a slider's rail goes, from the joint's point on the base along its axis.
+
+    The companion's length lies about that point, or about the slider at home where it would not reach it.
+    """
+    record = skeleton.record
+    index = next(item.index for item in record.coordinates if item.joint == mark.joint.name and item.kind == "length")
+    stands = (float((mark.at - mark.rail) @ mark.axes[0]), float(home[index]))
     if companion.rail:
-        return formula_value(skeleton.record, companion.rail)
-    strokes = [max(map(abs, actuated.stroke)) for actuated in skeleton.record.drives if actuated.stroke]
-    reach = [float(np.linalg.norm(mark.at - mark.rail)) for mark in marks]
-    return 1.2 * max([*strokes, *reach, LEAST * skeleton.size])
+        half = formula_value(record, companion.rail)
+        middle = stands[1] if abs(stands[1]) > half else 0.0
+        low, high = middle - half, middle + half
+    elif mark.joint.name in strokes(record):
+        low, high = strokes(record)[mark.joint.name]
+        low, high = low - BEYOND * skeleton.size, high + BEYOND * skeleton.size
+    else:
+        low, high = stands[1] - HALF * skeleton.size, stands[1] + HALF * skeleton.size
+    return min(low, *stands), max(high, *stands)
+
+
+def _overlap(first: Rail, second: Rail, size: float) -> bool:
+    """Whether two rails lie on one line and have a part of it in common, or almost."""
+    way = (first.end - first.start) / np.linalg.norm(first.end - first.start)
+    apart = second.ends - first.start
+    across = apart - np.outer(apart @ way, way)
+    if np.max(np.abs(across)) > 1e-6 * size:
+        return False
+    low, high = np.sort(apart @ way)
+    return bool(low < np.linalg.norm(first.end - first.start) + BEYOND * size and high > -BEYOND * size)
+
+
+def _joined(first: Rail, second: Rail) -> Rail:
+    """One rail in place of two on a line."""
+    points = np.concatenate([first.ends, second.ends])
+    along = points @ (first.end - first.start)
+    sliders = (*first.sliders, *second.sliders)
+    return replace(first, start=points[np.argmin(along)], end=points[np.argmax(along)], sliders=sliders)

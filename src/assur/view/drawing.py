@@ -14,7 +14,7 @@ from assur.numerics import rotations
 from assur.scene.companion import companion
 from assur.scene.letters import PlacedLetter, letters
 from assur.scene.mesh import Mesh, joined, rgb
-from assur.scene.parts import parts
+from assur.scene.parts import machine
 from assur.scene.skeleton import skeleton
 
 FloatArray = NDArray[np.float64]
@@ -61,7 +61,7 @@ def drawing(record: MechanismRecord, values: FloatArray) -> SolidDrawing:
     shape = skeleton(record, look, values)
     scale = FULL / max(shape.size, 1e-300)
     grouped: dict[tuple[str, str], list[Mesh]] = {}
-    for part in parts(shape, look):
+    for part in machine(record):
         grouped.setdefault((part.link, part.colour), []).append(part.shape.mesh(part.colour))
     solids = [
         Solid(link, f"{link} {colour[1:]}", *_indexed(joined(meshes), scale), _bytes(colour))

@@ -18,11 +18,9 @@ from assur.joint_graph.frames import frames
 from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
-from assur.scene.bodies import home_skeleton
-from assur.scene.companion import companion
 from assur.scene.mesh import rgb
 from assur.scene.part import Part
-from assur.scene.parts import parts
+from assur.scene.parts import machine
 
 FloatArray = NDArray[np.float64]
 FLOAT, UNSIGNED = 5126, 5125
@@ -71,9 +69,8 @@ def glb(record: MechanismRecord, values: FloatArray, seconds: float = SECONDS) -
     >>> glb(record, home_values(record)[None])[:4]
     b'glTF'
     """
-    names = companion(record)
     buffer = _Buffer()
-    made = parts(home_skeleton(record, names), names)
+    made = machine(record)
     colours = list(dict.fromkeys(item.colour for item in made))
     nodes: list[dict[str, Any]] = [
         {"name": record.name, "rotation": UPWARDS, "scale": [METRES[record.unit]] * 3, "children": []}
