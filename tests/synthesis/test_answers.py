@@ -22,6 +22,7 @@ def test_answers_are_plain_data(small):
         "passive_slides": True,
         "joint_kinds": [],
         "novelty": "",
+        "redundant": 0,
     }
     assert data["found"] == len(data["mechanisms"]) == len(small.designs)
     assert data["limb_types"]["with_motion"] == sum(data["limb_types"]["by_poc"].values()) == len(small.limbs)

@@ -30,7 +30,7 @@ def mechanisms(name, classes, line):
     """Of a known mechanism's classes on such a line, in each arrangement: what is listed, if it is that one."""
     (known,) = (one for one in known_by_directions(RISING) if one.name == name)
     sought = Sought(RISING, Range(0, 99), (), members=1, known=[known.key])
-    for one in arranged_classes(classes, RISING, len(known.chains)):
+    for one in arranged_classes(classes, RISING, len(known.chains), RISING.dim):
         if one.line == line and known_members(one.chosen, [known.key]):
             yield [design for design in moved(one, sought).designs if known.is_like(design.limbs, design.chains)]
 
@@ -82,7 +82,7 @@ def test_the_oracle_of_finite_motion_confirms_the_first_of_every_family(motion, 
 
 
 def test_a_member_of_classes_that_stand_alike_is_counted_once(in_legs):
-    for one in arranged_classes(in_legs, RISING, 3):
+    for one in arranged_classes(in_legs, RISING, 3, RISING.dim):
         members = one.simplest()
         if len(members) < 1000:  # else only the simplest are written
             assert len(members) == one.members

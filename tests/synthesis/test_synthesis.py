@@ -205,6 +205,43 @@ def test_the_engine_of_whole_mechanisms_agrees(in_space, in_legs, of_two_limbs, 
         assert topology.idle_joints == ()
 
 
+def count_as_the_whole_analysis_does(designs):
+    """Sets of redundant drives that determine each mechanism, with their coupling degrees, loops and constraints."""
+    for design in designs:
+        numbers = [f"{limb}.{joint}" for limb, joint in design.actuated]
+        topology = assur.topology([chain.text for chain in design.chains], actuate=numbers, mode=design.mode)
+        assert (topology.actuation.verdict, topology.actuation.redundancy) == ("redundant", 1)
+        names = topology.actuation.inputs
+        sets = {tuple(map(names.index, part.drives)): part.coupling_degree for part in topology.determining}
+        assert {part.drives: part.coupling_degree for part in design.determining} == sets
+        assert (design.coupling_degree, design.decoupling) == (min(sets.values()), None)
+        assert sum(abs(loop.delta) for loop in design.loops.loops) == 2 * design.coupling_degree
+        assert topology.redundant_constraints == design.redundant
+
+
+def test_redundant_drives_stand_in_one_limb_more_and_some_of_them_determine_the_mechanism():
+    found = synthesis(question("2T1R", max_joints=3, symmetric=True, redundant=1))
+    assert {len(design.limbs) for design in found.designs} == {4}
+    assert "R[z] R[z] R[z]" in {design.chains[0].text for design in found.designs}
+    count_as_the_whole_analysis_does(found.designs[:1])
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    "words",
+    [
+        {"motion": "3T", "limbs": 3, "max_joints": 3, "members": 1},
+        {"motion": "3R", "symmetric": True},
+        {"motion": "1T2R", "parasitic": True, "actuators": "leg", "members": 1},
+    ],
+    ids=["3T", "3R", "1T2R"],
+)
+def test_redundant_drives_of_every_kind_of_search_count_as_in_the_whole_analysis(words):
+    found = synthesis(question(redundant=1, **words))
+    assert found.designs
+    count_as_the_whole_analysis_does(random.Random(1).sample(found.designs, min(6, len(found.designs))))
+
+
 def test_coupling_degrees_are_those_asked_for(small):
     one = synthesis(question("3T", max_joints=3, coupling=(0, 1), members=3))
     assert {design.coupling_degree for design in one.designs} == {1}
@@ -268,6 +305,8 @@ def test_four_limbs_for_three_translations_and_a_rotation():
         ({"motion": "3T1R", "limbs": 1}, "1 limbs for 3T1R"),
         ({"limbs": 2, "actuators": "leg"}, "2 limbs for 3T with actuators in the legs"),
         ({"members": 0}, "0 members of each family"),
+        ({"redundant": -1}, "-1 redundant drives"),
+        ({"redundant": 1, "limbs": 5}, "5 limbs for 3T"),
         ({"max_joints": 0}, "at most 0 joints"),
         ({"coupling": (2, 1)}, r"coupling degrees 2\.\.1"),
         ({"coupling": (-1, 1)}, r"coupling degrees -1\.\.1"),

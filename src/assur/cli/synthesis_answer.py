@@ -101,8 +101,9 @@ def _front(synthesis: Synthesis, data: SynthesisAnswer) -> Iterable[RenderableTy
     if len(synthesis.designs) < 2:
         return
     yield ""
-    yield heading("the front, beaten by none in κ, redundant constraints, joints and zeros")
     asked, rows = synthesis.asked, []
+    respects = "redundant constraints and joints" if asked.redundant else "redundant constraints, joints and zeros"
+    yield heading(f"the front, beaten by none in κ, {respects}")
     for point in data.front:
         design = replace(synthesis.designs[point.ranks[0] - 1], names=())
         limbs = "\n".join([_limbs(design), *(f"({name})" for name in point.names)])
@@ -116,7 +117,8 @@ def _front(synthesis: Synthesis, data: SynthesisAnswer) -> Iterable[RenderableTy
 def _measures(asked: SynthesisQuestion) -> tuple[str, ...]:
     """What mechanisms are compared by; what is the same for all of them, as asked for, is left out."""
     base = () if asked.actuators == "base" else ("on base",)
-    return ("κ", "red.", "joints", "zeros", *base, *(("P",) if asked.passive_slides else ()))
+    zeros = () if asked.redundant else ("zeros",)
+    return ("κ", "red.", "joints", *zeros, *base, *(("P",) if asked.passive_slides else ()))
 
 
 def _values(design: Design, asked: SynthesisQuestion) -> tuple[str, ...]:

@@ -43,10 +43,18 @@ def synthesize(
         str | None,
         Parameter(
             metavar="N",
-            help="As many as the motion has freedoms if left out, one actuator in each; with fewer, limbs that begin"
-            " with an inner loop have two.",
+            help="As many as there are drives if left out, one in each; with fewer, limbs that begin with an inner loop"
+            " have two.",
         ),
     ] = None,
+    redundant: Annotated[
+        str,
+        Parameter(
+            metavar="K",
+            help="So many drives more than freedoms, and as many limbs more; 0 if left out. κ is then the least that"
+            " some of the drives need.",
+        ),
+    ] = "0",
     max_joints: Annotated[
         str,
         Parameter(
@@ -162,6 +170,7 @@ def synthesize(
         assur synthesize --motion 1T2R --parasitic --actuators leg --symmetric
         assur synthesize --motion 3R --symmetric
         assur synthesize --motion 1T2R:UP --top 5
+        assur synthesize --motion 2T1R --redundant 1 --symmetric --max-joints 3
         assur synthesize --limbs 2 --coupling 0..1 --no-passive-p --draft found
         assur synthesize --limbs 2 --explain tripteron
         assur synthesize --symmetric --joints RPU --new
@@ -191,6 +200,7 @@ def synthesize(
         passive_slides=passive_p,
         joints=_kinds(joints),
         novelty="" if known is None else "known" if known else "new",
+        redundant=whole_number(redundant, "--redundant"),
     )
     if explain:
         return _explained(explain, actuate, asked, shared)

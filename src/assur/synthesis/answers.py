@@ -82,7 +82,7 @@ def _front(point: FrontPoint, family: int, synthesis: Synthesis) -> DesignFront:
         coupling_degree=design.coupling_degree,
         redundant_constraints=design.redundant.collapsed,
         joints=design.joints,
-        zeros=design.zeros,
+        zeros=design.zeros if design.decoupling else None,
         names=tuple(name for rank in point.ranks for name in synthesis.designs[rank - 1].names),
         reason=point.reason,
     )
@@ -127,6 +127,7 @@ def _asked(asked: SynthesisQuestion) -> AskedSynthesis:
         asked.passive_slides,
         asked.joints,
         asked.novelty,
+        asked.redundant,
     )
 
 
@@ -141,13 +142,14 @@ def _design(rank: int, family: int, design: Design) -> DesignAnswer:
         )
         for limb, chain in zip(design.limbs, design.chains, strict=True)
     )
+    actuate = tuple(f"{limb}.{joint}" for limb, joint in design.actuated)
     return DesignAnswer(
         rank=rank,
         family=family,
         names=tuple(design.names),
         row=design.row,
         chains=tuple(chain.text for chain in design.chains),
-        actuate=tuple(f"{limb}.{joint}" for limb, joint in design.actuated),
+        actuate=actuate,
         mode=design.mode,
         limbs=tuple(limbs),
         symmetric=design.symmetric,
@@ -161,9 +163,11 @@ def _design(rank: int, family: int, design: Design) -> DesignAnswer:
         joint_kinds=design.joint_kinds,
         passive_slides=design.passive_slides,
         drives_on_base=design.drives_on_base,
-        outputs=design.decoupling.outputs,
-        decoupling=design.decoupling.depends,
-        zeros=design.zeros,
+        outputs=design.decoupling.outputs if design.decoupling else (),
+        decoupling=design.decoupling.depends if design.decoupling else (),
+        zeros=design.zeros if design.decoupling else None,
+        admissible=tuple(tuple(actuate[index] for index in some.drives) for some in design.determining),
+        coupling_degrees=tuple(some.coupling_degree for some in design.determining),
         route=design.known.route,
         reason=design.reason,
     )
@@ -193,8 +197,8 @@ def _skeleton(synthesis: Synthesis, rank: int, width: int, design: Design) -> st
             poc=None if design.row else (poc.t, poc.r),  # O' is the common point where limbs end there
             dim=poc.dim,
             dof=design.dof,
-            xi=design.xi,
-            coupling_degree=design.coupling_degree,
+            xi=None if design.determining else design.xi,
+            coupling_degree=None if design.determining else design.coupling_degree,
             limbs=tuple((limb.known.poc.t, limb.known.poc.r) for limb in design.limbs),
             limb_dims=tuple(limb.known.poc.dim for limb in design.limbs),
             redundant_constraints=(design.redundant.collapsed, design.redundant.joint_graph),

@@ -126,12 +126,16 @@ def placed(chosen: Sequence[Class], sought: Sought) -> tuple[tuple[int, ...], Ex
 
 
 def _by_rules(chosen: Sequence[Class], places: Sequence[int], motion: RequiredMotion) -> Expected | Refusal:
-    """What the rules say of the classes, by their first members; inner loops are for the twists to count."""
+    """What the rules say of the classes, by their first members.
+
+    Inner loops and redundant drives are for the twists to count.
+    """
     first = [members[0] for members in chosen]
     if not all(limb.motions for limb in first):
         return Refusal(next(limb.known.refusal for limb in first if not limb.motions))
     said = expected([limb.motions[place] for limb, place in zip(first, places, strict=True)], motion)
-    if isinstance(said, Expected) and any(limb.type.loop for limb in first):
+    drives = sum(len(limb.type.driven) for limb in first)
+    if isinstance(said, Expected) and (drives > motion.dim or any(limb.type.loop for limb in first)):
         return replace(said, counts=None)
     return said
 
@@ -185,7 +189,7 @@ def _outcome(
     if difference:
         return Rejected(disagreement=f"{text}: {difference}")
     degree = twists.loops.coupling_degree
-    if degree is None or degree not in sought.degrees or twists.decoupling is None:
+    if degree is None or degree not in sought.degrees:
         return Rejected()
     return Design(
         limbs=tuple(limbs),
@@ -195,6 +199,7 @@ def _outcome(
         loops=twists.loops,
         decoupling=twists.decoupling,
         dof=twists.dof,
+        determining=twists.determining,
         mode="translation" if not motion.rotations and any(limb.needs_mode for limb in limbs) else "home",
     )
 

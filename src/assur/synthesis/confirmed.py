@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
+from assur.synthesis.designs import DeterminingSet, least
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.chains import BASE, PLATFORM
 from assur.topology.counting.coupling import Decomposition, coupling
 from assur.topology.counting.decoupling import Decoupling, by_jacobian
-from assur.topology.screws.edges import Edge, closure, input_columns, rank
+from assur.topology.counting.redundant_drives import driven_by
+from assur.topology.screws.edges import Edge, closure, column_names, input_columns, null_basis, rank
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +33,29 @@ class Confirmed:
     edges: tuple[Edge, ...]
 
     @cached_property
+    def determining(self) -> tuple[DeterminingSet, ...]:
+        """The sets of redundant drives that determine the mechanism; none where drives are not redundant."""
+        columns = input_columns(self.edges)
+        if len(columns) <= self.dof:
+            return ()
+        rates = null_basis(closure(self.edges))[:, columns]
+        sets = (some for some in combinations(range(len(columns)), self.dof) if rank(rates[:, some]) == self.dof)
+        counted = ((some, self._loops(some).coupling_degree) for some in sets)
+        return tuple(DeterminingSet(some, degree) for some, degree in counted if degree is not None)
+
+    @cached_property
     def loops(self) -> Decomposition:
-        """Loops in the order that attains the coupling degree."""
-        return coupling(self.edges)
+        """Loops in the order that attains the coupling degree; of redundant drives those count that need the least."""
+        return self._loops(min(self.determining, key=least).drives) if self.determining else coupling(self.edges)
+
+    def _loops(self, drives: Sequence[int]) -> Decomposition:
+        """Loops where the inputs with these indices are the only ones."""
+        names, columns = column_names(self.edges), input_columns(self.edges)
+        return coupling(driven_by(self.edges, [names[columns[index]] for index in drives]))
 
     @cached_property
     def decoupling(self) -> Decoupling | None:
-        """Which output depends on which drive; none where the drives do not fix the platform."""
+        """Which output depends on which drive; none where the drives do not fix the platform, or are redundant."""
         return by_jacobian(self.edges, BASE, PLATFORM)
 
 

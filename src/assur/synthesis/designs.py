@@ -19,6 +19,24 @@ PARALLELOGRAM_REDUNDANT = 3
 _COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
 
+@dataclass(frozen=True)
+class DeterminingSet:
+    """Some of redundant drives that determine a mechanism.
+
+    Attributes:
+        drives: their indices among all of them.
+        coupling_degree: κ with these drives.
+    """
+
+    drives: tuple[int, ...]
+    coupling_degree: int
+
+
+def least(some: DeterminingSet) -> int:
+    """By which sets of drives are compared: the κ that they need."""
+    return some.coupling_degree
+
+
 @dataclass(frozen=True, eq=False)
 class Design:
     """A mechanism with the required motion, confirmed by both routes.
@@ -28,12 +46,13 @@ class Design:
         places: the position of each.
         chains: the limbs as they stand, joints named through the mechanism.
         known: the platform's POC set, and by which routes.
-        loops: in the order that attains the coupling degree.
-        decoupling: which output depends on which drive, where the platform goes.
+        loops: in the order that attains the coupling degree, by the redundant drives that need the least.
+        decoupling: which output depends on which drive, where the platform goes; none with redundant drives.
         dof: F of Eq. (3), all of it the platform's.
         mode: "translation" where the limbs keep the platform from turning only once it does not turn, else "home".
         names: known mechanisms with the same limbs.
         row: of the motions with the name that was asked for, which one it has; empty where there is one.
+        determining: the sets of redundant drives that determine it; none where drives are not redundant.
     """
 
     limbs: tuple[CandidateLimb, ...]
@@ -41,15 +60,16 @@ class Design:
     chains: tuple[Chain, ...]
     known: Known
     loops: Decomposition
-    decoupling: Decoupling
+    decoupling: Decoupling | None
     dof: int
     mode: Mode
     names: tuple[str, ...] = ()
     row: str = ""
+    determining: tuple[DeterminingSet, ...] = ()
 
     @property
     def coupling_degree(self) -> int:
-        """κ of Eq. (6)."""
+        """κ of Eq. (6); with redundant drives, the least that some of them need."""
         return self.loops.coupling_degree or 0
 
     @property
@@ -77,7 +97,7 @@ class Design:
     @property
     def zeros(self) -> int:
         """How many pairs of an output and a drive have nothing to do with each other."""
-        return sum(not used for row in self.decoupling.depends for used in row)
+        return sum(not used for row in self.decoupling.depends for used in row) if self.decoupling else 0
 
     @property
     def drives_on_base(self) -> int:
@@ -124,6 +144,10 @@ class Design:
         coupled = f"{virtual}, for {self._closing(first)} with Δ = {first.delta and f'{first.delta:+d}'}"
         exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
+        if self.determining:
+            drives = min(self.determining, key=least).drives
+            numbers = ", ".join("{}.{}".format(*self.actuated[index]) for index in drives)
+            coupled += f", by the drives {numbers}, one of {len(self.determining)} sets that determine it"
         return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
 
     def _closing(self, loop: Loop) -> str:

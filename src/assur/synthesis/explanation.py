@@ -51,18 +51,21 @@ def explanation(limbs: Sequence[DrivenLimb], asked: SynthesisQuestion, step: Ste
 
 
 def _by_numbers(limbs: Sequence[DrivenLimb], asked: SynthesisQuestion) -> Explanation | None:
-    freedoms, name = asked.motion.dim, asked.motion.name
+    freedoms = f"{asked.motion.dim} freedoms of {asked.motion.name}"
+    needed = f"{asked.drives} drives that are asked for" if asked.redundant else freedoms
     if len(limbs) != asked.limbs:
         said = f"it has {plural(len(limbs), 'limb')}, and {asked.limbs} are asked for"
-        if asked.limbs < min(len(limbs), freedoms) and not any(inner_loop(limb) for limb in limbs):
+        if asked.limbs < min(len(limbs), asked.drives) and not any(inner_loop(limb) for limb in limbs):
             said += (
                 f"; its limbs are series, of which each has one drive, and {asked.limbs} of them have fewer than the "
-                f"{freedoms} freedoms of {name}: only limbs with an inner loop have two"
+                f"{needed}: only limbs with an inner loop have two"
             )
         return Explanation("limbs", said)
     drives = sum(len(limb.driven) for limb in limbs)
-    if drives != freedoms:
-        return Explanation("drives", f"it has {plural(drives, 'drive')}, and {name} has {freedoms} freedoms")
+    if drives != asked.drives:
+        has = f"{asked.motion.name} has {asked.motion.dim} freedoms"
+        wanted = f"{asked.drives} for the {freedoms} are asked for" if asked.redundant else has
+        return Explanation("drives", f"it has {plural(drives, 'drive')}, and {wanted}")
     return None
 
 

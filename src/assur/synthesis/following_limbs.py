@@ -266,7 +266,7 @@ def wrenches(limb: CandidateLimb, place: int) -> FloatArray:
 
 
 def sets_of_classes(
-    classes: Sequence[Class], motion: VirtualChain, limbs: int
+    classes: Sequence[Class], motion: VirtualChain, limbs: int, drives: int
 ) -> Iterator[tuple[tuple[Class, ...], tuple[int, ...]]]:
     """One class for each limb that leave just the motion together, and the first places in which they do.
 
@@ -274,7 +274,7 @@ def sets_of_classes(
     """
     resisted: dict[object, FloatArray] = {}
     for chosen in combinations_with_replacement(classes, limbs):
-        if sum(len(some[0].type.driven) for some in chosen) == motion.dim:
+        if sum(len(some[0].type.driven) for some in chosen) == drives:
             places = places_leaving(chosen, motion, resisted)
             if places is not None:
                 yield chosen, places

@@ -45,9 +45,10 @@ def front(designs: Sequence[Design]) -> tuple[FrontPoint, ...]:
     ranks: dict[Values, list[int]] = defaultdict(list)
     for rank, design in enumerate(designs, 1):
         ranks[values(design)].append(rank)
+    respects = 4 if any(design.decoupling for design in designs) else 3
     points = {point: ranks[point][0] for point in ranks if not any(_beats(other, point) for other in ranks)}
     return tuple(
-        FrontPoint(tuple(ranks[point]), designs[rank - 1], "; ".join(_reasons(point, points)))
+        FrontPoint(tuple(ranks[point]), designs[rank - 1], "; ".join(_reasons(point, points, respects)))
         for point, rank in points.items()
     )
 
@@ -56,8 +57,10 @@ def _beats(first: Values, second: Values) -> bool:
     return first != second and all(a <= b for a, b in zip(first, second, strict=True))
 
 
-def _reasons(point: Values, points: Mapping[Values, int]) -> Iterator[str]:
+def _reasons(point: Values, points: Mapping[Values, int], respects: int = 4) -> Iterator[str]:
     """What a point of the front is the best in; then for each other respect the nearest point that is better there.
+
+    Of redundant drives no zeros are known, so that there are three respects.
 
     >>> for reason in _reasons((0, 4, 9, 0), {(0, 4, 9, 0): 1, (1, 0, 11, 0): 8}):
     ...     print(reason)
@@ -65,7 +68,7 @@ def _reasons(point: Values, points: Mapping[Values, int]) -> Iterator[str]:
     fewer redundant constraints (rank 8: 0) cost κ 1 and 2 joints more
     """
     least = [min(column) for column in zip(*points, strict=True)]
-    best = [name for name, own, all_least in zip(_BEST, point, least, strict=True) if own == all_least]
+    best = [_BEST[place] for place in range(respects) if point[place] == least[place]]
     yield ", ".join(best) if best else "between the others"
     for place, better in enumerate(_BETTER):
         others = [other for other in points if other[place] < point[place]]

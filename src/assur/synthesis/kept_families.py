@@ -20,7 +20,7 @@ from assur.cache import code_digest, own_place, trim
 from assur.model.topology_description import Mode
 from assur.results.answers.topology import AssurChain, Loop
 from assur.synthesis.assembly import MechanismFamily
-from assur.synthesis.designs import Design
+from assur.synthesis.designs import Design, DeterminingSet
 from assur.synthesis.isomorphism import Key
 from assur.synthesis.plans import ClassSet
 from assur.synthesis.question import SynthesisQuestion
@@ -50,7 +50,8 @@ class KeptDesign:
     known: Known
     loops: tuple[Loop, ...]
     assur_chains: tuple[AssurChain, ...]
-    decoupling: Decoupling
+    decoupling: Decoupling | None
+    determining: tuple[DeterminingSet, ...]
     dof: int
     mode: Mode
     row: str
@@ -146,6 +147,7 @@ def _kept_design(design: Design) -> KeptDesign:
         design.loops.loops,
         design.loops.assur_chains,
         design.decoupling,
+        design.determining,
         design.dof,
         design.mode,
         design.row,
@@ -166,6 +168,7 @@ def _of(kept: KeptFamily, some: ClassSet) -> MechanismFamily:
             one.dof,
             one.mode,
             row=one.row,
+            determining=one.determining,
         )
         for one in kept.designs
     )

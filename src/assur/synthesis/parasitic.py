@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from assur.numerics.rotations import about_axis
 from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members, mechanism
 from assur.synthesis.classes import AMONG, Class, simplicity
-from assur.synthesis.designs import Design
+from assur.synthesis.designs import Design, DeterminingSet, least
 from assur.synthesis.home_constraints import constraints_of, home_twists, together
 from assur.synthesis.limb_motions import CandidateLimb, limb_by_itself
 from assur.synthesis.limbs import FREE, Actuators, LimbType, short_types
@@ -133,7 +133,9 @@ def limb_with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[
     return key, limb_by_itself(stood, TURNS)
 
 
-def arranged_classes(classes: Sequence[Class], motion: RequiredMotion, limbs: int) -> Iterator[ArrangedClasses]:
+def arranged_classes(
+    classes: Sequence[Class], motion: RequiredMotion, limbs: int, drives: int
+) -> Iterator[ArrangedClasses]:
     """Sets of classes whose constraints leave just the motion at home, in each arrangement in which they do."""
 
     @cache
@@ -143,7 +145,7 @@ def arranged_classes(classes: Sequence[Class], motion: RequiredMotion, limbs: in
 
     for indices in combinations_with_replacement(range(len(classes)), limbs):
         chosen = tuple(classes[index] for index in indices)
-        if sum(len(members[0].type.driven) for members in chosen) != motion.dim:
+        if sum(len(members[0].type.driven) for members in chosen) != drives:
             continue
         for places in _placements(chosen):
             chains = [members[0].chains[place] for members, place in zip(chosen, places, strict=True)]
@@ -209,11 +211,14 @@ def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
 def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: Sought) -> Design | Rejected:
     chains = arranged.chains(limbs)
     driven = [f"{number}.{place + 1}" for number, limb in enumerate(limbs, 1) for place in limb.type.driven]
-    linkage = place(chains, actuated=numbered_inputs(chains, driven))
+    linkage = _driven(chains, driven)
     try:
         if not _keeps_its_freedoms(linkage, sought.motion):
             return Rejected()
         topology = analyse(linkage, chains)
+        determining = _determining(topology)
+        if determining:
+            topology = analyse(_driven(chains, [driven[index] for index in min(determining, key=least).drives]), chains)
     except (UnclearRankError, ImmobileError):  # modes meet at home, or its freedom does not last
         return Rejected()
     except RoutesDisagreeError as error:
@@ -226,7 +231,24 @@ def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: 
         return Rejected()
     known = topology.known
     loops = Decomposition(topology.loops, topology.assur_chains)
-    return Design(tuple(limbs), arranged.places, chains, known, loops, topology.decoupling, topology.dof, "home")
+    decoupling = None if determining else topology.decoupling
+    return Design(
+        tuple(limbs), arranged.places, chains, known, loops, decoupling, topology.dof, "home", determining=determining
+    )
+
+
+def _driven(chains: Sequence[Chain], numbers: Sequence[str]) -> Linkage:
+    return place(chains, actuated=numbered_inputs(chains, numbers))
+
+
+def _determining(topology: Topology) -> tuple[DeterminingSet, ...]:
+    """The sets of redundant drives that determine a mechanism."""
+    names = topology.inputs
+    return tuple(
+        DeterminingSet(tuple(map(names.index, one.drives)), one.coupling_degree)
+        for one in topology.determining
+        if one.coupling_degree is not None
+    )
 
 
 def _keeps_its_freedoms(linkage: Linkage, motion: RequiredMotion) -> bool:

@@ -117,7 +117,7 @@ def _by_directions(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) ->
     sets = (
         _class_set(some, sought)
         for some in combinations_with_replacement(usable, asked.limbs)
-        if sum(len(members[0].type.driven) for members in some) == asked.motion.dim
+        if sum(len(members[0].type.driven) for members in some) == asked.drives
         and (are_equal(some) or not asked.symmetric)
     )
     return SearchPlan(
@@ -138,7 +138,7 @@ def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key])
     known = (*known_mechanisms(row), *also)
     sets = (
         _class_set(chosen, dataclasses.replace(_sought(asked, row, (places,), known), reached=True), row.row)
-        for chosen, places in sets_of_classes(usable, row, asked.limbs)
+        for chosen, places in sets_of_classes(usable, row, asked.limbs, asked.drives)
         if are_equal(chosen) or not asked.symmetric
     )
     return SearchPlan(usable, tuple(sets), Counter({"not the motion": len(types) - len(limbs)}))
@@ -146,14 +146,14 @@ def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key])
 
 def _parasitic(asked: SynthesisQuestion, also: Sequence[Key]) -> SearchPlan:
     """By constraints at home, which leave the motion that is asked for."""
-    every = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.motion.dim)
+    every = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.drives)
     wanted = (tuple(limb for limb in some if asked.wants(limb.type)) for some in every)
     usable = tuple(some for some in wanted if some)
     known = [*(one.key for one in known_by_directions(asked.motion)), *also]
     sought = _sought(asked, asked.motion, (), known)
     sets = (
         ClassSet(one.chosen, len(one.chosen[0]) if asked.symmetric else one.members, partial(moved, one, sought))
-        for one in arranged_classes(usable, asked.motion, asked.limbs)
+        for one in arranged_classes(usable, asked.motion, asked.limbs, asked.drives)
         if are_equal(one.chosen) or not asked.symmetric
     )
     return SearchPlan(usable, tuple(sets), seconds=MOVED)

@@ -37,6 +37,12 @@ class SynthesisQuestion:
     passive_slides: bool = True
     joints: tuple[str, ...] = ()
     novelty: Novelty = ""
+    redundant: int = 0
+
+    @property
+    def drives(self) -> int:
+        """Number of drives: one for each freedom, and redundant ones."""
+        return self.motion.dim + self.redundant
 
     def unwanted(self, limb: LimbType) -> str:
         """Why a limb is not among those that are asked for, by its joints alone; empty where it is."""
@@ -54,7 +60,7 @@ class SynthesisQuestion:
     @property
     def hybrid(self) -> bool:
         """Whether some limbs begin with an inner loop and have two actuators."""
-        return self.limbs < self.motion.dim
+        return self.limbs < self.drives
 
     @property
     def by_families(self) -> bool:
@@ -76,6 +82,7 @@ def question(
     passive_slides: bool = True,
     joints: Collection[str] = (),
     novelty: Novelty = "",
+    redundant: int = 0,
 ) -> SynthesisQuestion:
     """What is asked of a synthesis.
 
@@ -86,7 +93,7 @@ def question(
     Args:
         motion: "3T", "2T1R", "3T1R" or "3T3R"; T counts translations, R rotations (one of them about z). Or one of
             `virtual_chains`, as "1T2R" for all of its rows and "1T2R:UP" for one.
-        limbs: number of limbs, by default the number of freedoms; half of it, rounded up, is the least.
+        limbs: number of limbs, by default that of drives; half of it, rounded up, is the least.
         max_joints: of a limb, on the way through one branch of its inner loop.
         coupling: least and largest coupling degree, Eq. (6).
         symmetric: only mechanisms of equal limbs. Without it, also the simplest of those with different limbs.
@@ -100,6 +107,7 @@ def question(
         passive_slides: whether limbs may have P that nothing drives.
         joints: kinds of joints that limbs are made of, of `JOINT_KINDS`; all where it is empty.
         novelty: whether only mechanisms of the catalogue are listed, or all others.
+        redundant: so many drives more than freedoms.
 
     Errors:
         UnknownNameError: another motion, or kind of joint. UsageError: another number of limbs, or an empty range.
@@ -110,29 +118,32 @@ def question(
         raise UnknownNameError("motion", motion, {*MOTIONS, *VIRTUAL_CHAINS}, hint=hint)
     rows = () if parasitic or name in MOTIONS else rows_named(motion)
     target = rows[0] if rows else motion_named(motion, among=PARASITIC if parasitic else MOTIONS)
-    number = target.dim if limbs is None else limbs
-    if parasitic and number not in (target.dim, target.dim + 1):
+    if redundant < 0:
+        raise UsageError(f"{redundant} redundant drives; give none or more")
+    drives = target.dim + redundant
+    number = drives if limbs is None else limbs
+    if parasitic and number not in (drives, drives + 1):
         raise UsageError(
             f"{number} limbs for {target.name} that others come with; each has one drive, and at most one has none",
-            hint=f"give {target.dim}, or {target.dim + 1} of which one has no drive",
+            hint=f"give {drives}, or {drives + 1} of which one has no drive",
         )
     if idle and not rows:
         raise UsageError(
             f"idle joints for {target.name}, whose limbs are written without",
             hint=f"motions by virtual chains may have them: {', '.join(VIRTUAL_CHAINS)}, of 3T as 3T:PPP",
         )
-    if rows and number != target.dim:
-        raise UsageError(f"{number} limbs for {target.name}, whose limbs have one drive each; give {target.dim}")
-    least = max(2, math.ceil(target.dim / 2))
-    if not parasitic and not least <= number <= target.dim:
+    if rows and number != drives:
+        raise UsageError(f"{number} limbs for {target.name}, whose limbs have one drive each; give {drives}")
+    least = max(2, math.ceil(drives / 2))
+    if not parasitic and not least <= number <= drives:
         raise UsageError(
             f"{number} limbs for {target.name}; a limb has one actuator, or two with an inner loop",
-            hint=f"give {least} to {target.dim}, or leave the number out for {target.dim}",
+            hint=f"give {least} to {drives}, or leave the number out for {drives}",
         )
-    if number < target.dim and actuators == "leg":
+    if number < drives and actuators == "leg":
         raise UsageError(
             f"{number} limbs for {target.name} with actuators in the legs; with inner loops they stand on the base",
-            hint=f"leave out the place of the actuators, or ask for {target.dim} limbs",
+            hint=f"leave out the place of the actuators, or ask for {drives} limbs",
         )
     if max_joints < 1:
         raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
@@ -159,4 +170,5 @@ def question(
         passive_slides=passive_slides,
         joints=tuple(kind for kind in JOINT_KINDS if kind in joints),
         novelty=novelty,
+        redundant=redundant,
     )

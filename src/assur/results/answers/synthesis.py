@@ -29,6 +29,7 @@ class AskedSynthesis:
     passive_slides: bool
     joint_kinds: Names
     novelty: str
+    redundant: int
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,9 @@ class DesignLimb:
 class DesignAnswer:
     """A mechanism with the motion, the rank of its family, and which of the motions with that name it has.
 
-    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `actuate`, and `zeros` where not.
+    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `actuate`, and `zeros` how often not;
+    none of them is told of redundant drives. Of these `admissible` are the sets that determine it, each with its
+    `coupling_degrees`, of which the least is its `coupling_degree`.
     """
 
     rank: int
@@ -91,7 +94,9 @@ class DesignAnswer:
     drives_on_base: int
     outputs: Names
     decoupling: tuple[tuple[bool, ...], ...]
-    zeros: int
+    zeros: int | None
+    admissible: tuple[Names, ...]
+    coupling_degrees: tuple[int, ...]
     route: str
     reason: str
 
@@ -148,7 +153,7 @@ class DesignFront:
     coupling_degree: int
     redundant_constraints: int
     joints: int
-    zeros: int
+    zeros: int | None
     names: Names
     reason: str
 

@@ -45,7 +45,7 @@ def constraining_together(
     keys = sorted((limb.type.key for limb in limbs), key=repr)
     every = [
         arranged
-        for arranged in arranged_classes(list(classes.values()), asked.motion, asked.limbs)
+        for arranged in arranged_classes(list(classes.values()), asked.motion, asked.limbs, asked.drives)
         if sorted((some[0].type.key for some in arranged.chosen), key=repr) == keys
     ]
     if not every:
@@ -75,7 +75,7 @@ def _written(limb: DrivenLimb, asked: SynthesisQuestion) -> LimbType | str:
     if too_long:
         return too_long
     bare = DrivenLimb(without_labels(limb.chain), limb.driven)
-    passive = short_types(asked.motion, asked.actuators, passive=True) if asked.limbs > asked.motion.dim else ()
+    passive = short_types(asked.motion, asked.actuators, passive=True) if asked.limbs > asked.drives else ()
     own = written_among((*short_types(asked.motion, asked.actuators), *passive), bare, asked.motion)
     if own:
         return asked.unwanted(own) or own
