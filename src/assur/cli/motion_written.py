@@ -39,7 +39,7 @@ def outcome(record: Mechanism, mode: str, path: str) -> Outcome:
 
 
 def _shown(answer: MotionFormulasAnswer) -> Iterable[RenderableType]:
-    yield heading(f"{answer.mechanism}, equation of motion of working mode {answer.mode}")
+    yield heading(f"{answer.mechanism}, equation of motion{f' of working mode {answer.mode}' if answer.mode else ''}")
     yield f"actuator forces, mass matrix, bias and gravity in {answer.operations} operations, by the closed form"
     yield f"held against the numbers in {POSES} motions: they differ by {answer.difference:.1e} of the largest"
     yield f"written: {answer.written}"

@@ -8,19 +8,46 @@ import pytest
 import assur
 from assur.errors import UsageError
 from assur.kinematics.status import Status
+from assur.kinematics.validation.check import METRES
 from assur.machine.forces.motion_formulas import difference, motion_formulas
+from assur.machine.masses.link_masses import all_masses
+from assur.model.machine_data import LinkData
 from assur.model.registry import load_record
 from weighed import weighed
 
 WRITTEN = ["orthoglide", "linear_delta_4r", "three_crr", "three_rrc", "three_rrrp4r", "tsai_platform", "three_upu"]
+WRITTEN += ["planar_3rrr", "three_rps"]
+DEEP = [pytest.param(name, marks=pytest.mark.deep) for name in WRITTEN]
+WITH_RODS = ["delta_4s", "three_p2us", "h4_robot"]
 
 
 @pytest.mark.parametrize(
-    "name", ["fivebar", "zeng2019", "tripteron", *(pytest.param(name, marks=pytest.mark.deep) for name in WRITTEN)]
+    "name",
+    [
+        "fivebar",
+        "zeng2019",
+        "tripteron",
+        "planar_3rpr",
+        *(pytest.param(name, marks=pytest.mark.deep) for name in WRITTEN),
+    ],
 )
 def test_they_are_the_numbers_of_the_joint_graph(name):
     """In motion and under a load, with bodies whose centres and inertias lie anywhere, and rotors."""
     assert difference(motion_formulas(weighed(load_record(name)))) < 1e-10
+
+
+@pytest.mark.parametrize(
+    "name", ["linear_delta_4s", *(pytest.param(name, marks=pytest.mark.deep) for name in WITH_RODS)]
+)
+def test_rods_between_balls_turn_across_their_axes_alone(name):
+    """As in the numbers, whatever the closed form says of their spins; thick ones, so that turning them weighs."""
+    record = load_record(name)
+    metre = METRES[record.unit]
+    thick = {
+        link: LinkData(mass=body.mass, centre=body.centre / metre, inertia=body.inertia + 0.01 * body.mass * np.eye(3))
+        for link, body in all_masses(record).bodies.items()
+    }
+    assert difference(motion_formulas(replace(record, machine=replace(record.machine, links=thick)))) < 1e-10
 
 
 def test_they_hold_up_to_the_border_where_the_numbers_have_a_status():
@@ -37,11 +64,12 @@ def test_they_hold_up_to_the_border_where_the_numbers_have_a_status():
 
 
 @pytest.mark.parametrize(
-    ("name", "said"), [("three_rps", "poses of lengths alone"), ("linear_delta_4s", "a spin that nothing drives")]
+    ("record", "said"),
+    [(load_record("gough_stewart"), "not by a quaternion"), (weighed(load_record("linear_delta_4s")), "swings")],
 )
-def test_what_has_no_formulas_is_told(name, said):
+def test_what_has_no_formulas_is_told(record, said):
     with pytest.raises(UsageError, match=said):
-        motion_formulas(load_record(name))
+        motion_formulas(record)
 
 
 def test_without_a_closed_form_it_is_told_what_would_derive_one():

@@ -16,6 +16,7 @@ from assur.joint_graph.configuration import Configuration
 from assur.joint_graph.geometry import Geometry, written_geometry
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import STILL, UNTURNED, of_quaternion
+from assur.kinematics.closed_form.kernel_state import kernel_state, screws
 from assur.kinematics.contract.mismatch import Part
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import closed_form_of
@@ -110,7 +111,9 @@ class DrawnProblem:
         self.signs = {name: ns.signs() for name in sign_names(record, problem)}
         self.branch: Branch = self._branch(SimpleNamespace(**self.signs))
         joints = self.form.joints(ns, self.p, self.branch.core)
-        self.state, self.rotations = _state(record, joints)
+        if any(screws(record)):
+            raise InexactError("the angle of a screw beside its cosine")
+        self.state, self.rotations = kernel_state(record, joints)
         self.configuration = Configuration(joint_graph(record), self.geometry, self.state)
 
     def _branch(self, signs: SimpleNamespace) -> Branch:
@@ -304,30 +307,6 @@ def _pose(record: MechanismRecord, ns: DrawnNumbers) -> tuple[Any, ...]:
     parts = (w * w - x * x - y * y - z * z) / size, 2 * w * x / size, 2 * w * y / size, 2 * w * z / size
     unit = dict(zip(QUATERNION, parts, strict=True))
     return tuple(unit[name] if name in unit else ns.uniform() for name in names)
-
-
-def _state(record: MechanismRecord, joints: Mapping[str, Any]) -> tuple[dict[str, list[Any]], dict[str, Matrix]]:
-    """Numbers of each joint, and the matrices that stand for ball joints."""
-    state: dict[str, list[Any]] = {}
-    rotations: dict[str, Matrix] = {}
-    for name, joint in record.joints.items():
-        kinds = [step.kind for step in joint.type.steps]
-        if "screw" in kinds:
-            raise InexactError("the angle of a screw beside its cosine")
-        if kinds == ["ball"]:
-            rotations[name] = joints[name]
-            state[name] = _quaternion(joints[name])
-            continue
-        values = [joints[name]] if name in joints else [joints[f"{name}.{part}"] for part in joint.type.components]
-        state[name] = [number for value in values for number in (value if isinstance(value, tuple) else (value,))]
-    return state, rotations
-
-
-def _quaternion(rows: Matrix) -> list[Any]:
-    """A quaternion of any length of a rotation that is no half turn."""
-    trace = plus(plus(rows[0][0], rows[1][1]), rows[2][2])
-    off = minus(rows[2][1], rows[1][2]), minus(rows[0][2], rows[2][0]), minus(rows[1][0], rows[0][1])
-    return [plus(trace, 1), *off]
 
 
 def _angles(rotation: Matrix, given: Mapping[str, Any]) -> tuple[Any, ...]:

@@ -24,31 +24,6 @@ from assur.machine.motion.screws import rate_metres
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
-SAME = 1e-9
-"""Share of all masses times characteristic lengths, and their squares, below which a change is rounding."""
-
-
-def swings(motion: ClosedMotion) -> bool:
-    """Whether a link is not the same in space while it moves as nothing drives it: beside its axis, or not round.
-
-    >>> from assur.kinematics.home import home_values
-    >>> from assur.machine.forces.loads import load_of
-    >>> from assur.machine.masses.link_masses import all_masses
-    >>> from assur.model.registry import load_record
-    >>> delta = load_record("delta_4s")
-    >>> swings(EquationOfMotion(delta, all_masses(delta), load_of(None, True)).motion(home_values(delta)[None]))
-    False
-    """
-    inertia, idle = motion.inertia, motion.idle[:, None]
-    if not idle.shape[-1]:
-        return False
-    moved = inertia.masses[:, None, None] * (inertia.moving @ idle)
-    turning = np.swapaxes(inertia.turning @ idle, -1, -2)[..., None, :]  # (N, L, ·, 1, 3)
-    tensors = inertia.tensors[:, :, None]
-    half = np.cross(turning, tensors)  # row for row: the transpose of w x T, as T is symmetric
-    turned = half + np.swapaxes(half, -1, -2)
-    size = float(inertia.masses.sum()) * motion.length
-    return bool(np.abs(moved).max() > SAME * size or np.abs(turned).max() > SAME * size * motion.length)
 
 
 def swung(

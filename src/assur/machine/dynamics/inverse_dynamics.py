@@ -17,7 +17,7 @@ from assur.kinematics.status import Status
 from assur.machine.dynamics.departure import Departure
 from assur.machine.dynamics.equation_of_motion import EquationOfMotion
 from assur.machine.dynamics.followed_motion import followed_motion
-from assur.machine.dynamics.idle_motion import swings, swung
+from assur.machine.dynamics.idle_motion import swung
 from assur.machine.dynamics.prescribed_motion import PrescribedMotion
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
 from assur.machine.forces.loads import load_of
@@ -155,7 +155,7 @@ def dynamics(
     joints, departure = followed_motion(record, motion, mode, use_limits=use_limits)
     rates, swinging = None, False
     if departure is None:
-        swinging = swings(equation.motion(joints[[0, len(joints) // 2, -1]]))
+        swinging = equation.motion(joints[[0, len(joints) // 2, -1]]).swings
         if swinging:
             joints, rates, departure = swung(equation, motion, joints[0])
     poses, velocities, accelerations = motion.at(times)

@@ -17,19 +17,25 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.configuration import Configuration
+from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length, geometry
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.closed_form.kernel_state import kernel_state, screws
+from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.rates.acceleration import joints_in_mode
 from assur.kinematics.status import closed_form_of
 from assur.kinematics.validation.check import METRES
 from assur.machine.forces.actuator_forces import forces
-from assur.machine.forces.motion_terms import terms, vector
+from assur.machine.forces.motion_terms import COSINE, SINE, pose_numbers, terms, vector
 from assur.machine.masses.link_masses import all_masses
+from assur.machine.motion.inertia import link_inertia
+from assur.machine.motion.joint_motion import closed_motion
 from assur.machine.motion.pivots import graph_pivots
+from assur.machine.motion.screws import paths
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS
+from assur.model.pose import LENGTHS, has_quaternion
 from assur.numerics.recording.derivatives import done, exact, is_zero
 from assur.numerics.recording.tape import MEANING, Recorder, Tape
 from assur.numerics.vectors import add, apply, minus, times
@@ -39,6 +45,7 @@ POSES, TRIED = 12, 400
 """At how many poses numbers are compared, of how many that are drawn."""
 PUSH = 10.0
 """In N: how large forces are in which numbers are compared."""
+TRIGONOMETRY: Mapping[str, Any] = {"cos": np.cos, "sin": np.sin}
 SAME = 1e-10
 """Share of the largest by which numbers differ that are the same."""
 
@@ -81,7 +88,8 @@ class MotionFormulas:
         """The terms at poses (N, k), their rates and accelerations (N, k), and forces (N, k) in N on the platform."""
         count, k, d = len(poses), len(self.record.platform.pose), len(self.record.drives)
         given = [np.zeros((count, k)) if part is None else part for part in (velocity, acceleration, load)]
-        outputs = self.tape.evaluate(list(np.concatenate([poses, *given], axis=1).T), self.values.tolist())
+        columns = _columns(self.record, np.concatenate([poses, *given], axis=1))
+        outputs = self.tape.evaluate(list(columns), self.values.tolist())
         shapes = {"M": (k, k), "c": (k,), "g": (k,), "D": (d, k), "tau": (d,)}
         numbers = {kind: np.zeros((count, *shape)) for kind, shape in shapes.items()}
         for name, value in outputs.items():
@@ -98,8 +106,8 @@ def motion_formulas(record: MechanismRecord, mode: str | None = None) -> MotionF
     """The formulas of a working mode, the file's default where none is given.
 
     Errors:
-        UsageError: no closed form, a pose with angles, ball joints or other freedoms that nothing drives, whose motion
-            no pose tells; links without a mass.
+        UsageError: no closed form, a pose by a quaternion, screws, rods that swing beside their axes, whose motion no
+            pose tells; links without a mass.
 
     >>> from assur.model.registry import load_record
     >>> own = motion_formulas(load_record("tripteron"))
@@ -110,8 +118,9 @@ def motion_formulas(record: MechanismRecord, mode: str | None = None) -> MotionF
     _refuse(record)
     drawn = _drawn(record, mode)
     first, values = _places(record, mode)
-    moved = terms(record, _simplified(first, drawn, values))
-    return MotionFormulas(record, mode, _simplified(moved, drawn, values), np.array(values))
+    columns = _columns(record, drawn)
+    moved = terms(record, _simplified(first, columns, values), _rod_axes(record))
+    return MotionFormulas(record, mode, _simplified(moved, columns, values), np.array(values))
 
 
 def difference(formulas: MotionFormulas) -> float:
@@ -120,17 +129,23 @@ def difference(formulas: MotionFormulas) -> float:
     drawn = _drawn(record, formulas.mode, seed=1)  # others than those at which numbers were taken for the same
     poses, velocity, acceleration, load = np.split(drawn, 4, axis=1)
     pushed = np.zeros((len(poses), 3))
-    pushed[:, [LENGTHS.index(name) for name in record.platform.pose]] = load
+    lengths = np.array([name in LENGTHS for name in record.platform.pose])
+    load = load * lengths
+    pushed[:, [LENGTHS.index(name) for name in record.platform.pose if name in LENGTHS]] = load[:, lengths]
     answer = forces(record, poses, velocity, acceleration, pushed, mode=formulas.mode)
     told = formulas(poses, velocity, acceleration, load)
     turning = np.array([item.coordinate.kind == "angle" for item in record.drives])
-    own = told.mass, unit * told.bias, told.gravity, told.forces * np.where(turning, unit, 1.0)
+    each = np.where(lengths, 1.0, unit)  # newtons in m and rad are told in the unit
+    own = told.mass * np.outer(each, each), unit * told.bias * each, told.gravity * each, told.forces
+    own = *own[:3], told.forces * np.where(turning, unit, 1.0)
     numbers = answer.mass_matrix, answer.bias, answer.gravity, answer.forces
-    inert = unit * np.einsum("nij,nj->ni", answer.mass_matrix, acceleration)
-    borne = np.stack([inert, answer.bias, answer.gravity])
-    largest = [np.max(np.abs(part)) for part in (answer.mass_matrix, borne, borne, answer.forces)]
-    pairs = zip(own, numbers, largest, strict=True)
-    return max(float(np.max(np.abs(first - second)) / size) for first, second, size in pairs)
+    far = 1.0 / np.where(lengths, 1.0, unit * characteristic_length(record))
+    scales = np.outer(far, far), far, far, np.ones(len(turning))
+    inert = np.einsum("nij,nj->ni", answer.mass_matrix, acceleration * np.where(lengths, unit, 1.0))
+    borne = np.stack([inert, answer.bias, answer.gravity]) * far
+    largest = [np.max(np.abs(part)) for part in (answer.mass_matrix * scales[0], borne, borne, answer.forces)]
+    pairs = zip(own, numbers, scales, largest, strict=True)
+    return max(float(np.max(np.abs(first - second) * scale) / size) for first, second, scale, size in pairs)
 
 
 def _refuse(record: MechanismRecord) -> None:
@@ -139,12 +154,39 @@ def _refuse(record: MechanismRecord) -> None:
         hint = "assur derive M -o closed_form.py, where there is one"
         raise UsageError(f"{name}: no formulas of motion without a closed form", hint=hint)
     all_masses(record)
+    if any(screws(record)):
+        raise UsageError(f"{name}: no formulas of motion with screws, whose turns cosines do not tell")
     if lacking := [own for own in record.platform.pose if own not in record.box]:
         raise UsageError(f"{name}: no box of {', '.join(lacking)} to compare numbers in", hint="say it in [workspace]")
-    if not set(record.platform.pose) <= set(LENGTHS):
-        raise UsageError(f"{name}: formulas of motion are written for poses of lengths alone")
-    if any(joint.type.ball for joint in record.joints.values()) or pivots is None or pivots.idle:
-        raise UsageError(f"{name}: no formulas of motion: a spin that nothing drives is told by no pose")
+    if has_quaternion(record.platform.pose):
+        raise UsageError(f"{name}: formulas of motion are written for poses of lengths and angles, not by a quaternion")
+    if pivots is None:
+        raise UsageError(f"{name}: no formulas of motion where the pose's rates are not free")
+    home = home_values(record)[None]
+    motion = closed_motion(link_inertia(record, home, all_masses(record)), home)
+    if motion.swings or any(len(own.links) > 1 for own in pivots.idle):
+        raise UsageError(f"{name}: no formulas of motion: what swings beside an axis that nothing drives no pose tells")
+
+
+def _rod_axes(record: MechanismRecord) -> dict[str, FloatArray]:
+    """Axes (3,), along the frames of links, about which these spin as nothing drives them."""
+    home, own = home_values(record)[None], paths(record)
+    motion, placed = closed_motion(link_inertia(record, home, all_masses(record)), home), frames(record, home)
+    pivots = graph_pivots(record)
+    axes = {}
+    for link in {link for item in (pivots.idle if pivots else ()) for link in item.links}:
+        turning = (motion.inertia.turning[0, own.links.index(link)] @ motion.idle[0]).T
+        turned = turning[np.argmax(np.linalg.norm(turning, axis=1))]
+        axes[link] = placed[link][0][0].T @ (turned / np.linalg.norm(turned))
+    return axes
+
+
+def _columns(record: MechanismRecord, drawn: FloatArray) -> FloatArray:
+    """What a tape is given of motions (N, 4 k), as rows: of angles of the pose cosines and sines."""
+    numbers = dict(zip(record.platform.pose, drawn.T, strict=False))
+    numbers |= {f"{kind} {name}": form(row) for name, row in numbers.items() for kind, form in TRIGONOMETRY.items()}
+    own = [numbers[name] for name in pose_numbers(record.platform.pose)]
+    return np.array([*own, *drawn.T[len(record.platform.pose) :]])
 
 
 def _drawn(record: MechanismRecord, mode: str, seed: int = 0) -> FloatArray:
@@ -174,18 +216,24 @@ def _places(record: MechanismRecord, mode: str) -> tuple[Tape, list[float]]:
         return recorder.uniform(name)
 
     p = SimpleNamespace(**{name: dimension(name, value) for name, value in vars(kernel_dimensions(record)).items()})
-    pose = tuple(recorder.varying(name) for name in record.platform.pose)
+    given = {name: recorder.varying(name) for name in pose_numbers(record.platform.pose)}
+    pose = tuple(
+        given[name] if name in given else (given[COSINE.format(name)], given[SINE.format(name)])
+        for name in record.platform.pose
+    )
     signs = dict(zip(sign_names(record, "inverse"), mode_signs(record, "inverse", mode), strict=True))
     branch = form.inverse(recorder, p, pose, SimpleNamespace(**{name: float(sign) for name, sign in signs.items()}))
-    joints = form.joints(recorder, p, branch.core)
-    state = {name: _numbers(joints, name, joint) for name, joint in record.joints.items()}
+    state, _ = kernel_state(record, form.joints(recorder, p, branch.core))
     configuration = Configuration(joint_graph(record), geometry(record).mapped(exact), state)
     outputs: dict[str, Any] = {}
+    axes = {link: [exact(part) for part in axis] for link, axis in _rod_axes(record).items()}
     for link, body in all_masses(record).carried(record.platform.link).items():
         rotation, origin = configuration.frames[link]
         centre = add(origin, apply(rotation, vector(map(exact, body.centre / METRES[record.unit]))))
         outputs |= {f"c {link},{k}": number for k, number in enumerate(centre)}
-        if np.any(body.inertia):
+        if link in axes:
+            outputs |= {f"e {link},{k}": number for k, number in enumerate(apply(rotation, vector(axes[link])))}
+        elif np.any(body.inertia):
             outputs |= {f"r {link},{k}": number for k, number in enumerate((*rotation[0], *rotation[1], *rotation[2]))}
     for place, item in enumerate(record.drives):
         numbers = state[item.coordinate.joint]
@@ -194,11 +242,6 @@ def _places(record: MechanismRecord, mode: str) -> tuple[Tape, list[float]]:
         else:
             outputs |= {f"cos {place}": numbers[0], f"sin {place}": times(int(item.sign), numbers[1])}
     return recorder.tape(outputs), values
-
-
-def _numbers(joints: Mapping[str, Any], name: str, joint: Any) -> list[Any]:
-    own = [joints[name]] if name in joints else [joints[f"{name}.{part}"] for part in joint.type.components]
-    return [number for value in own for number in (value if isinstance(value, tuple) else (value,))]
 
 
 def _simplified(tape: Tape, drawn: FloatArray, values: Sequence[float]) -> Tape:
@@ -239,14 +282,15 @@ def _key(value: FloatArray) -> tuple[float, ...]:
 
 
 def _numbers_at(tape: Tape, drawn: FloatArray, values: Sequence[float]) -> list[FloatArray]:
-    given = {"varying": iter(drawn.T), "uniform": iter([np.full(len(drawn), value) for value in values])}
+    count = drawn.shape[1]
+    given = {"varying": iter(drawn), "uniform": iter([np.full(count, value) for value in values])}
     numbers: list[Any] = []
     for operation in tape.operations:
         arguments = [numbers[k] for k in operation.arguments]
         if operation.name in given:
             numbers.append(next(given[operation.name]))
         elif operation.name == "number":
-            numbers.append(np.full(len(drawn), operation.number))
+            numbers.append(np.full(count, operation.number))
         elif operation.name == "root":
             numbers.append(np.sqrt(np.maximum(arguments[0], 0.0)))
         else:

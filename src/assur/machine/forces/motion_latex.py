@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from assur.kinematics.validation.check import METRES
 from assur.machine.forces.motion_formulas import MotionFormulas
+from assur.model.pose import LENGTHS
 from assur.numerics.recording.tape import Operation, Tape
 
 HEAD = r"""\documentclass[10pt,a4paper]{article}
@@ -65,15 +66,19 @@ def _lines(formulas: MotionFormulas) -> Iterator[str]:
     pose = [letter(name) for name in record.platform.pose]
     name, unit = record.name.replace("_", r"\_"), record.unit
     metre = "" if METRES[unit] == 1.0 else "u "
-    yield rf"\section*{{Equation of motion of {name}, working mode ${formulas.mode}$}}"
-    yield rf"With the pose $\mathbf x = ({', '.join(pose)})$ in {unit}, its rates in {unit}/s, its"
-    yield r"accelerations, and the force $\mathbf f$ on the platform in N, the actuators exert $\boldsymbol\tau$:"
+    yield rf"\section*{{Equation of motion of {name}{f', working mode ${formulas.mode}$' if formulas.mode else ''}}}"
+    angles = [letter(name) for name in record.platform.pose if name not in LENGTHS]
+    units = f"{unit} and rad" if angles and len(angles) < len(pose) else "rad" if angles else unit
+    yield rf"With the pose $\mathbf x = ({', '.join(pose)})$ in {units}, its rates, its accelerations, and"
+    yield r"forces $\mathbf f$ on the platform along these coordinates, the actuators exert $\boldsymbol\tau$:"
     yield rf"\[ \mathbf D^{{\mathsf T}} \boldsymbol\tau = \mathbf r = {metre}(\mathbf M \ddot{{\mathbf x}} + \mathbf c)"
     yield r"+ \mathbf g - \mathbf f \]"
     if metre:
         yield rf"with $u = {_number(METRES[unit])}$\,m/{unit}."
     if len(record.drives) > len(pose):
         yield r"With more actuators than freedoms $\boldsymbol\tau$ is the least that does."
+    if angles:
+        yield "; ".join(rf"$c_{{{name}}} = \cos {name}$, $s_{{{name}}} = \sin {name}$" for name in angles) + "."
     yield rf"Masses are in kg, forces in N, torques in N\,{unit}. Masses and places without a letter are those of the"
     yield "file. The dimensions are"
     values = dict(zip(tape.uniform, formulas.values.tolist(), strict=True))
@@ -89,13 +94,16 @@ def _lines(formulas: MotionFormulas) -> Iterator[str]:
 def _given(name: str) -> str:
     r"""What is given for each motion: coordinates of the pose, their rates and accelerations, forces on the platform.
 
-    >>> print(_given("x'"), _given("x''"), _given("f_x"), _given("y"))
-    \dot{x} \ddot{x} f_{x} y
+    >>> print(_given("x'"), _given("x''"), _given("f_x"), _given("y"), _given("cos phi"))
+    \dot{x} \ddot{x} f_{x} y c_{\phi}
     """
+    word, _, angle = name.partition(" ")
+    if angle:
+        return rf"{word[0]}_{{{letter(angle)}}}"
     stem = name.rstrip("'")
     if stem != name:
         return rf"\{'d' * (len(name) - len(stem))}ot{{{letter(stem)}}}"
-    return f"f_{{{name[2:]}}}" if name.startswith("f_") else letter(name)
+    return f"f_{{{letter(name[2:])}}}" if name.startswith("f_") else letter(name)
 
 
 def _indexed(name: str) -> str:

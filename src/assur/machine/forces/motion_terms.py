@@ -2,25 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.kinematics.validation.check import METRES
 from assur.machine.masses.link_masses import all_masses
 from assur.machine.motion.inertia import rotors
 from assur.machine.motion.pivot_checks import total
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS
 from assur.numerics.recording.derivatives import again, exact, is_zero, quotient, rates, second_rates
 from assur.numerics.recording.tape import Recorder, Tape
-from assur.numerics.vectors import Matrix, Vector, add, apply, cross, dot, minus, plus, times, transposed
+from assur.numerics.vectors import Matrix, Vector, add, apply, cross, dot, minus, plus, scaled, times, transposed
 
 RATE, SECOND, PUSH = "{}'", "{}''", "f_{}"
 """How the rate and the acceleration of a coordinate, and the force along it, are named on a tape."""
+COSINE, SINE = "cos {}", "sin {}"
+"""How these of an angle of the pose are named."""
 
 
+def pose_numbers(pose: Sequence[str]) -> list[str]:
+    """What tapes are given of a pose: lengths, and cosines and sines of angles.
+
+    >>> pose_numbers(("x", "phi"))
+    ['x', 'cos phi', 'sin phi']
+    """
+    pairs = ((name,) if name in LENGTHS else (COSINE.format(name), SINE.format(name)) for name in pose)
+    return [number for pair in pairs for number in pair]
+
+
+FloatArray = NDArray[np.float64]
 Sums = tuple[dict[tuple[int, int], Any], dict[int, Any], dict[int, Any]]
 
 
@@ -62,18 +77,28 @@ class _Moving:
         return 0 if place is None else numbers[place]
 
 
-def terms(record: MechanismRecord, places: Tape) -> Tape:
-    """Of D^T tau = u (M a + c) + g - f, from places and their derivatives; see `MotionFormulas`."""
+def terms(record: MechanismRecord, places: Tape, axes: Mapping[str, FloatArray]) -> Tape:
+    """Of D^T tau = u (M a + c) + g - f, from places and their derivatives; see `MotionFormulas`.
+
+    Links with `axes` (3,) are the same however they turn about these, which is left out: they turn across them alone.
+    """
     recorder, names = Recorder(), record.platform.pose
     entries = again(recorder, places)
     velocity, acceleration, pushed = (
         [recorder.varying(form.format(name)) for name in names] for form in (RATE, SECOND, PUSH)
     )
-    first = rates(places, entries, velocity)
-    partial = [rates(places, entries, [int(k == i) for i in range(len(names))]) for k in range(len(names))]
-    moving = _Moving(places, entries, partial, first, second_rates(places, entries, first))
-    mass, bias, weight = _summed(record, moving)
-    driven = {(d, k): moving.input_rate(d, own) for d in range(len(record.drives)) for k, own in enumerate(partial)}
+    given = dict(zip(places.varying, (entries[k] for k in _varying(places)), strict=True))
+    along = [[_change(given, number, name) for number in given] for name in names]  # per rate of each coordinate
+    first = rates(places, entries, [_sum_of(ways, velocity) for ways in zip(*along, strict=True)])
+    squares = [times(rate, rate) for rate in velocity]
+    bent = [[0 if name in LENGTHS or number.split()[-1] != name else minus(0, given[number]) for number in given]
+            for name in names]  # fmt: skip
+    second = second_rates(places, entries, first, [_sum_of(ways, squares) for ways in zip(*bent, strict=True)])
+    moving = _Moving(places, entries, [rates(places, entries, ways) for ways in along], first, second)
+    mass, bias, weight = _summed(record, moving, axes)
+    driven = {
+        (d, k): moving.input_rate(d, own) for d in range(len(record.drives)) for k, own in enumerate(moving.partial)
+    }
     for place, item in enumerate(record.drives):
         rotor = rotors(record)[item.coordinate.index]
         rotor = exact(rotor / (1.0 if item.coordinate.kind == "length" else METRES[record.unit] ** 2))
@@ -96,7 +121,22 @@ def terms(record: MechanismRecord, places: Tape) -> Tape:
     return recorder.tape({name: value for name, value in outputs.items() if not is_zero(value)})
 
 
-def _summed(record: MechanismRecord, moving: _Moving) -> Sums:
+def _varying(places: Tape) -> Iterator[int]:
+    return (k for k, operation in enumerate(places.operations) if operation.name == "varying")
+
+
+def _change(given: Mapping[str, Any], number: str, name: str) -> Any:
+    """How a number of the pose changes per rate of a coordinate."""
+    if number == COSINE.format(name):
+        return minus(0, given[SINE.format(name)])
+    return given[COSINE.format(name)] if number == SINE.format(name) else int(number == name)
+
+
+def _sum_of(ways: Sequence[Any], rates_of: Sequence[Any]) -> Any:
+    return total(times(way, rate) for way, rate in zip(ways, rates_of, strict=True))
+
+
+def _summed(record: MechanismRecord, moving: _Moving, axes: Mapping[str, FloatArray]) -> Sums:
     """Mass matrix, bias and gravity of the links."""
     unit, known, count = METRES[record.unit], all_masses(record), len(record.platform.pose)
     mass: dict[tuple[int, int], Any] = {}
@@ -108,7 +148,12 @@ def _summed(record: MechanismRecord, moving: _Moving) -> Sums:
         speeding = moving.vector(f"c {link}", moving.second)
         turns: list[Vector] = []
         torque: Vector = (0, 0, 0)
-        if np.any(body.inertia):
+        axis = axes.get(link)
+        if axis is not None:
+            own_inertia = exact(_across(body.inertia, axis) / unit**2)
+            turns = [moving.vector(f"e {link}", part) for part in moving.partial]
+            torque = scaled(moving.vector(f"e {link}", moving.second), own_inertia)
+        elif np.any(body.inertia):
             rotation, change, second = (
                 moving.matrix(f"r {link}", part) for part in (moving.entries, moving.first, moving.second)
             )
@@ -123,9 +168,16 @@ def _summed(record: MechanismRecord, moving: _Moving) -> Sums:
             bias[i] = plus(bias.get(i, 0), plus(needed, dot(turns[i], torque)) if turns else needed)
             for j in range(i, count):
                 inert = times(own, dot(ways[i], ways[j]))
-                inert = plus(inert, dot(turns[i], apply(inertia, turns[j]))) if turns else inert
+                if turns:
+                    bent = apply(inertia, turns[j]) if axis is None else scaled(turns[j], own_inertia)
+                    inert = plus(inert, dot(turns[i], bent))
                 mass[i, j] = plus(mass.get((i, j), 0), inert)
     return mass, bias, weight
+
+
+def _across(inertia: FloatArray, axis: FloatArray) -> float:
+    """Of a body that is the same however it turns about an axis (3,), about one across."""
+    return 0.5 * float(np.trace(inertia) - axis @ inertia @ axis)
 
 
 def _turning(rotation: Matrix, change: Matrix, before: Matrix | None = None) -> Vector:

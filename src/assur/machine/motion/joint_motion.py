@@ -29,6 +29,8 @@ ROUNDED = 1e-14
 """A rate that all joints together make no larger than this share of the largest is rounding."""
 MASSLESS = 1e-12
 """A freedom whose inertia is below this share of the largest has none: the spin of a slender rod."""
+ALIKE = 1e-9
+"""Share of all masses times characteristic lengths, and their squares, below which a change is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +104,19 @@ class ClosedMotion:
     def idle_accelerations(self, needed: FloatArray) -> FloatArray:
         """How idle motions speed up (N, n) where forces (N, n) would be needed that nothing exerts."""
         return -self._carried(self.idle, needed[..., None])[..., 0]
+
+    @property
+    def swings(self) -> bool:
+        """Whether a link is not the same in space while it moves as nothing drives it: beside its axis, not round."""
+        inertia, idle = self.inertia, self.idle[:, None]
+        if not idle.shape[-1]:
+            return False
+        moved = inertia.masses[:, None, None] * (inertia.moving @ idle)
+        turning = np.swapaxes(inertia.turning @ idle, -1, -2)[..., None, :]  # (N, L, ·, 1, 3)
+        half = np.cross(turning, inertia.tensors[:, :, None])  # row for row: the transpose of w x T, as T is symmetric
+        turned = half + np.swapaxes(half, -1, -2)
+        size = float(inertia.masses.sum()) * self.length
+        return bool(np.abs(moved).max() > ALIKE * size or np.abs(turned).max() > ALIKE * size * self.length)
 
     def rates(self, velocity: FloatArray) -> FloatArray:
         """Joint rates (N, n) at rates (N, k) of the pose."""

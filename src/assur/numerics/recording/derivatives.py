@@ -96,13 +96,14 @@ def rates(tape: Tape, entries: Sequence[Any], seeds: Sequence[Any]) -> list[Any]
     return found
 
 
-def second_rates(tape: Tape, entries: Sequence[Any], first: Sequence[Any]) -> list[Any]:
-    """The rates of the rates `first`, where the varying numbers go on as they do."""
+def second_rates(tape: Tape, entries: Sequence[Any], first: Sequence[Any], seeds: Sequence[Any] = ()) -> list[Any]:
+    """The rates of the rates `first`, where those of the varying numbers change by `seeds`; they stay without."""
     found: list[Any] = []
+    given = iter(seeds)
     for k, operation in enumerate(tape.operations):
         a, b = (operation.arguments * 2)[:2] if operation.arguments else (0, 0)
         if not operation.arguments:
-            rate: Any = 0
+            rate: Any = next(given, 0) if operation.name == "varying" else 0
         elif operation.name in ("+", "-"):
             rate = (plus if operation.name == "+" else minus)(found[a], found[b])
         elif operation.name == "*":
