@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from imports import tree
+from packages import docstring
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -93,7 +94,7 @@ def test_one_version_everywhere():
 
 
 def test_every_module_says_its_idea():
-    assert [path for path in CORE if path.read_text(encoding="utf-8") and not ast.get_docstring(tree(path))] == []
+    assert [path for path in CORE if path.read_text(encoding="utf-8") and not docstring(path)] == []
 
 
 def test_no_file_names_a_host_or_a_machine():

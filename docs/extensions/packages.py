@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+import inspect
+import re
 import tomllib
 from pathlib import Path
 
-from imports import tree
+_DOCSTRING = re.compile(r'\A((?:#[^\n]*\n|\s)*[rR]?""".*?""")', re.DOTALL)
 
 
 def markdown(root: Path) -> str:
@@ -27,9 +29,15 @@ def _section(folder: Path, source: Path) -> str:
     return "\n".join([head, "| module | idea |", "|---|---|", *rows, ""]) if rows else head
 
 
+def docstring(path: Path) -> str:
+    """A module's docstring, the rest of it unread; empty where it begins with something else."""
+    begun = _DOCSTRING.match(path.read_text(encoding="utf-8"))
+    return inspect.cleandoc(ast.literal_eval(begun[1])) if begun else ""
+
+
 def idea(path: Path) -> str:
     """First paragraph of a module's docstring, with what Markdown would read escaped."""
-    words = ast.get_docstring(tree(path)) or ""
+    words = docstring(path)
     line = " ".join(words.split("\n\n")[0].split())
     return line.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
 
