@@ -205,5 +205,5 @@ def test_the_commands_of_the_page_find_the_known_mechanisms(assur_cli, command, 
 
 
 def test_the_page_has_its_commands():
-    assert len(ROWS) == 13
-    assert len({name for _, names in ROWS for name in names.split(", ")}) == 22
+    assert len(ROWS) == 14
+    assert len({name for _, names in ROWS for name in names.split(", ")}) == 23

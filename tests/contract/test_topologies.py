@@ -67,6 +67,7 @@ EXPECTED = {
     "Exechon": "exechon",
     "Agile Eye": "agile_eye",
     "4-RUU": "four_ruu",
+    "Quadrupteron": "quadrupteron",
 }
 
 
