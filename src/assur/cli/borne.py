@@ -18,9 +18,9 @@ from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.forces.actuator_forces import force_units
 from assur.machine.forces.capacity import capacity
+from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.forces import CapacityAnswer
@@ -33,7 +33,6 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
     held = capacity(record, pose, mode)
     status = Status(int(held.answer.status[0])).name
     lost = why_lost(record, pose, mode, Status[status])
-    metre = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in record.platform.pose])
     notes = [*lost.notes] or ([SAID[status]] if status in SAID else [])
     if np.any(held.utilisation > 1.0):
         notes.append("gravity alone asks for more than the actuators can")
@@ -41,7 +40,7 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
         notes.append("the forces that are held are not bounded: no actuator feels some of them")
     answer = CapacityAnswer(
         **mechanism_header(record),
-        pose=(pose * metre).tolist(),
+        pose=(pose * pose_metres(record)).tolist(),
         mode=mode,
         status=status,
         input_names=tuple(item.name for item in record.drives),

@@ -19,12 +19,12 @@ from assur.errors import UsageError
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.elastic_reactions import elastic_reactions
 from assur.machine.elasticity.skeletons import elastic
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units
 from assur.machine.forces.reactions import Reactions, reactions
 from assur.machine.masses.link_masses import masses
+from assur.machine.motion.screws import pose_metres, rate_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.forces import ForcesAnswer, ShownReaction
@@ -74,20 +74,17 @@ def _answer(
 ) -> ForcesAnswer:
     solved, passed, bent = solutions
     status = Status(int(solved.status[0]))
-    metre = METRES[record.unit]
-    of_pose = np.array([metre if name in LENGTHS else 1.0 for name in record.platform.pose])
-    of_rates = np.array([metre if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
     lost = why_lost(record, pose, mode, status)
     return ForcesAnswer(
         **mechanism_header(record),
-        pose=(pose * of_pose).tolist(),
+        pose=(pose * pose_metres(record)).tolist(),
         mode=mode,
         status=status.name,
         input_names=tuple(item.name for item in record.drives),
         load=[*solved.load.force.tolist(), *solved.load.moment.tolist()],
         under_gravity=solved.load.gravity,
-        velocity=(motion[0] * of_rates).tolist(),
-        acceleration=(motion[1] * of_rates).tolist(),
+        velocity=(motion[0] * rate_metres(record)).tolist(),
+        acceleration=(motion[1] * rate_metres(record)).tolist(),
         actuator_forces=plain(solved.forces[0]),
         least_norm=solved.preload.shape[-1] > 0,
         preload=plain(solved.preload[0].T),
@@ -204,9 +201,7 @@ def _shown(record: Mechanism, answer: ForcesAnswer) -> Iterable[RenderableType]:
 
 
 def _inside(record: Mechanism, answer: ForcesAnswer) -> NDArray[Any]:
-    metre = METRES[record.unit]
-    units = [metre if name in LENGTHS else 1.0 for name in record.platform.pose]
-    return np.asarray(np.array(answer.pose) / units)
+    return np.asarray(np.array(answer.pose) / pose_metres(record))
 
 
 def _actuators(record: Mechanism, answer: ForcesAnswer) -> Iterable[RenderableType]:

@@ -19,9 +19,9 @@ from assur.kinematics.answers.at_border import mechanism_header, pose_at_border,
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.dynamics.small_motions import small_motions
 from assur.machine.forces.actuator_forces import force_units
+from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.dynamics import LinearMotionAnswer
@@ -40,10 +40,9 @@ def outcome(record: Mechanism, texts: Sequence[str], mode: str, acting: tuple[Se
     solved = small_motions(record, pose, mode, load, gravity=gravity)
     status = Status(int(solved.answer.status[0])).name
     known = bool(np.all(np.isfinite(solved.poles)))
-    metre = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in names])
     answer = LinearMotionAnswer(
         **mechanism_header(record),
-        pose=(pose * metre).tolist(),
+        pose=(pose * pose_metres(record)).tolist(),
         mode=mode,
         status=status,
         input_names=tuple(item.name for item in record.drives),

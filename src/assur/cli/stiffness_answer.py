@@ -18,8 +18,8 @@ from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.stiffness import ACTUATORS, Stiffness
+from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.results.answers.stiffness import Row, ShownCompliance, ShownShares, StiffnessAnswer
@@ -48,7 +48,6 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str, *, shear: bool) ->
 def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness) -> StiffnessAnswer:
     status = Status(int(solved.status[0]))
     held = status == Status.regular
-    metre = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in record.platform.pose])
     whole, motors = _compliance(solved), _compliance(solved.actuator_only)
     shares = solved.shares() if held else None
     vibrations = solved.vibrations() if held else None
@@ -60,7 +59,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
         notes.append(f"no mass is stated of {', '.join(vibrations.lacking)}: no frequencies")
     return StiffnessAnswer(
         **mechanism_header(record),
-        pose=(pose * metre).tolist(),
+        pose=(pose * pose_metres(record)).tolist(),
         mode=mode,
         status=status.name,
         input_names=tuple(item.name for item in record.drives),

@@ -31,6 +31,7 @@ from assur.machine.dynamics.release import Release, forces_in_time
 from assur.machine.forces.actuator_forces import force_units
 from assur.machine.forces.utilisation import Utilisation, peak, rms, utilisation
 from assur.machine.masses.link_masses import masses
+from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS, rate_names
 from assur.results.answers.dynamics import DynamicsAnswer, StoppedMotion, UsedShares
@@ -127,9 +128,8 @@ def _answer(
 ) -> DynamicsAnswer:
     """What both kinds of motion have."""
     load, gravity = acting
-    metre = METRES[record.unit]
-    of_pose = np.array([metre if name in LENGTHS else 1.0 for name in record.platform.pose])
-    of_inputs = np.array([metre if unit == "N" else 1.0 for unit in force_units(record)])
+    of_pose = pose_metres(record)
+    of_inputs = np.array([METRES[record.unit] if unit == "N" else 1.0 for unit in force_units(record)])
     return DynamicsAnswer(
         **mechanism_header(record),
         mode=mode,
@@ -170,8 +170,7 @@ def _shares(shares: Utilisation) -> UsedShares:
 def _stopped(record: Mechanism, departure: Departure | None) -> StoppedMotion | None:
     if departure is None:
         return None
-    metre = np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in record.platform.pose])
-    pose = (departure.pose * metre).tolist()
+    pose = (departure.pose * pose_metres(record)).tolist()
     margin = plain(departure.margin)
     return StoppedMotion(departure.kind, departure.time, pose, departure.quantity, margin, departure.text)
 

@@ -20,7 +20,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import STILL
 from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, rate_names
+from assur.model.pose import LENGTHS, Pose, rate_names
 
 FloatArray = NDArray[np.float64]
 
@@ -92,13 +92,21 @@ def rate_units(record: MechanismRecord) -> FloatArray:
 
 
 def rate_metres(record: MechanismRecord) -> FloatArray:
-    """The same for a rate (k,) of the pose.
+    """The same for a rate (k,) of the pose."""
+    return _metres(record, rate_names(record.platform.pose))
+
+
+def pose_metres(record: MechanismRecord) -> FloatArray:
+    """The same for a coordinate (m,) of the pose.
 
     >>> from assur.model.registry import load_record
-    >>> rate_metres(load_record("fivebar")).tolist()
-    [0.001, 0.001]
+    >>> pose_metres(load_record("planar_3rrr")).tolist()
+    [0.001, 0.001, 1.0]
     """
-    names = rate_names(record.platform.pose)
+    return _metres(record, record.platform.pose)
+
+
+def _metres(record: MechanismRecord, names: Pose) -> FloatArray:
     return np.array([METRES[record.unit] if name in LENGTHS else 1.0 for name in names])
 
 
