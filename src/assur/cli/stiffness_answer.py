@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,11 +18,20 @@ from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.machine.elasticity.stiffness import ACTUATORS, Stiffness
+from assur.machine.elasticity.energies import ACTUATORS
+from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
+from assur.machine.elasticity.stiffness import Stiffness
 from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
-from assur.results.answers.stiffness import Row, ShownCompliance, ShownShares, StiffnessAnswer
+from assur.results.answers.stiffness import (
+    Row,
+    ShownCompliance,
+    ShownModeShape,
+    ShownMovedLink,
+    ShownShares,
+    StiffnessAnswer,
+)
 from assur.results.json_text import plain
 from assur.results.plain_text import short
 
@@ -33,8 +42,11 @@ UNITS = {
     "directions": "1",
     "shares": "1",
     "frequencies": "Hz",
+    "mode_shapes": "frequency Hz, points and displacements m, rotations rad, shares 1",
 }
 WRENCH = ("Fx [N]", "Fy [N]", "Fz [N]", "Mx [N m]", "My [N m]", "Mz [N m]")
+STILL = 1e-9
+"""A displacement of the platform below this share of the largest is rounding."""
 NOT_HELD = "the platform moves here while nothing is strained: the actuators do not hold it"
 
 
@@ -72,10 +84,16 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
         actuator_only=motors,
         shares=ShownShares(shares.links, shares.kinds, shares.actuators) if shares else None,
         frequencies=tuple(plain(vibrations.frequencies)) if vibrations else (),
+        mode_shapes=tuple(_shape(own) for own in mode_shapes(vibrations)) if vibrations else (),
         failures=lost.failures,
         notes=tuple(notes),
         units={"pose": ", ".join("m" if name in LENGTHS else "rad" for name in record.platform.pose), **UNITS},
     )
+
+
+def _shape(own: ModeShape) -> ShownModeShape:
+    links = {link: ShownMovedLink(plain(rest), plain(moved)) for link, (rest, moved) in own.links.items()}
+    return ShownModeShape(own.frequency, plain(own.platform), own.shares.links, links)
 
 
 def _compliance(solved: Stiffness) -> ShownCompliance:
@@ -151,7 +169,25 @@ def _energies(answer: StiffnessAnswer) -> Iterable[RenderableType]:
         yield "under unit forces along x, y and z, summed"
     if answer.frequencies:
         yield ""
-        yield f"slowest natural vibrations: {', '.join(short(value) for value in answer.frequencies)} Hz"
+        shapes = [
+            (short(own.frequency), *(f"{part + 0.0:.3f}" for part in _scaled(own.platform[:3])), _strained(own.shares))
+            for own in answer.mode_shapes
+        ]
+        yield table(("vibration [Hz]", "platform along x", "y", "z", "strained most"), shapes, left=("strained most",))
+        yield "natural vibrations: how the platform's point moves, and where the strain energy is"
+
+
+def _scaled(moved: Sequence[float]) -> NDArray[np.float64]:
+    """Three displacements, of which the largest is one, rounded; none of a platform that stands still."""
+    numbers = np.array(moved)
+    largest = float(np.max(np.abs(numbers)))
+    return np.asarray(np.round(numbers / largest if largest > STILL else 0.0 * numbers, 3))
+
+
+def _strained(shares: Mapping[str, float]) -> str:
+    """The two links, or the actuators, that are strained most."""
+    most = sorted(shares.items(), key=lambda pair: -pair[1])[:2]
+    return ", ".join(f"{name} {share:.0%}" for name, share in most if share > 0.01)
 
 
 def _micro(value: float | None) -> str:

@@ -6,7 +6,6 @@ unknowns that nothing holds. Overconstraint needs no care, idle freedoms stay id
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,7 +18,8 @@ from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.elasticity.beams import KINDS
+from assur.machine.elasticity.energies import EnergyShares, energy_shares
+from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
 from assur.machine.elasticity.strains import Strains, strains
 from assur.machine.elasticity.structure import structure
 from assur.machine.elasticity.vibrations import Vibrations, vibrations
@@ -28,8 +28,6 @@ from assur.model.mechanism import MechanismRecord
 FloatArray = NDArray[np.float64]
 RIGID = 1e-12
 """Share of the largest compliance below which nothing gives way; turns count by the characteristic length."""
-ACTUATORS = "actuators"
-"""Stands for all of them among links and kinds of strain."""
 ABREAST = 256
 """Configurations that are taken at once: their matrices fit a processor's cache."""
 
@@ -107,11 +105,16 @@ class Stiffness:
 
     def shares(self, place: int = 0) -> EnergyShares:
         """Where energy goes under unit forces along x, y and z, summed."""
-        return energy_shares(self.strains(place))
+        state = self.strains(place)
+        return energy_shares(state, state.displaced(np.swapaxes(state.platform[:1, :3], -1, -2))[0])
 
     def vibrations(self, place: int = 0) -> Vibrations:
         """The slowest natural vibrations at one of the poses."""
         return vibrations(self.strains(place))
+
+    def mode_shapes(self, place: int = 0) -> tuple[ModeShape, ...]:
+        """How the structure moves in each of these; none where the file lacks a mass."""
+        return mode_shapes(self.vibrations(place))
 
     def __str__(self) -> str:
         rows = []
@@ -123,46 +126,6 @@ class Stiffness:
             )
             rows.append(f"{Status(int(code)).name}: {told} N/m")
         return "\n".join([f"stiffness of {self.record.name}, translations without moment", *rows])
-
-
-@dataclass(frozen=True, eq=False)
-class EnergyShares:
-    """Shares of the strain energy under unit forces along x, y and z, summed. Each split sums to 1.
-
-    Attributes:
-        links, kinds: of all energy, by elastic links and by kinds of strain, that of all actuators among them.
-        actuators: of the energy of the actuators.
-        energy: all of it, in J.
-    """
-
-    links: Mapping[str, float]
-    kinds: Mapping[str, float]
-    actuators: Mapping[str, float]
-    energy: float
-
-
-def energy_shares(state: Strains) -> EnergyShares:
-    """Energy of beams and actuators at the first configuration of a structure."""
-    own, record = state.structure, state.structure.record
-    moved = state.displaced(np.swapaxes(state.platform[:1, :3], -1, -2))[0]  # (U, 3)
-    links = dict.fromkeys(own.skeletons, 0.0)
-    kinds = dict.fromkeys(KINDS, 0.0)
-    for beam, strain in zip(own.beams, state.of_beams[0] @ moved, strict=True):
-        wrench = beam.beam.stiffness @ (strain * state.units[:, None])
-        for kind, part in zip(KINDS, beam.beam.parts, strict=True):
-            energy = 0.5 * float(np.sum(wrench * (part @ wrench)))
-            links[beam.link] += energy
-            kinds[kind] += energy
-    joints = moved[own.unknowns - len(state.scales) :] * state.scales[:, None]
-    springs = 0.5 * own.stiffness * np.sum(joints**2, axis=1)
-    actuators = {item.name: float(springs[item.coordinate.index]) for item in record.drives}
-    links[ACTUATORS] = kinds[ACTUATORS] = sum(actuators.values())
-    return EnergyShares(_shares(links), _shares(kinds), _shares(actuators), sum(kinds.values()))
-
-
-def _shares(energies: Mapping[str, float]) -> dict[str, float]:
-    whole = sum(energies.values())
-    return {name: energy / whole if whole else 0.0 for name, energy in energies.items()}
 
 
 def stiffness(record: MechanismRecord, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:

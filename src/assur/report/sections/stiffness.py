@@ -8,7 +8,8 @@ import numpy as np
 
 from assur.errors import UsageError
 from assur.kinematics.status import Status
-from assur.machine.elasticity.stiffness import ACTUATORS, EnergyShares, Stiffness, stiffness_at
+from assur.machine.elasticity.energies import ACTUATORS, EnergyShares
+from assur.machine.elasticity.stiffness import Stiffness, stiffness_at
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, RANK, Result, Scalar, Section, Table
 from assur.results.typeset_text import short

@@ -41,11 +41,33 @@ class ShownShares:
 
 
 @dataclass(frozen=True)
+class ShownMovedLink:
+    """Points of a link at rest in the base frame, and their displacements: sections of beams, a rigid link's joints."""
+
+    points: tuple[Numbers, ...]
+    displacements: tuple[Numbers, ...]
+
+
+@dataclass(frozen=True)
+class ShownModeShape:
+    """A natural vibration at its largest: of all points that which moves most has gone one metre.
+
+    `platform` is the displacement of the platform's point, then its rotation; `shares` of the strain energy by links,
+    "actuators" standing for all of them.
+    """
+
+    frequency: float
+    platform: Numbers
+    shares: Mapping[str, float]
+    links: Mapping[str, ShownMovedLink]
+
+
+@dataclass(frozen=True)
 class StiffnessAnswer(AnswerOfMechanism):
     """Stiffness at a pose while the actuators hold their inputs.
 
     `actuator_only` is what remains if no link bent. `frequencies` are the slowest natural vibrations in Hz, empty
-    where a link's mass is not known; `units` are by field.
+    where a link's mass is not known, `mode_shapes` how each moves; `units` are by field.
     """
 
     pose: Numbers
@@ -61,6 +83,7 @@ class StiffnessAnswer(AnswerOfMechanism):
     actuator_only: ShownCompliance
     shares: ShownShares | None
     frequencies: Numbers
+    mode_shapes: tuple[ShownModeShape, ...]
     failures: tuple[NegativeQuantity, ...]
     notes: tuple[str, ...]
     units: Mapping[str, str]

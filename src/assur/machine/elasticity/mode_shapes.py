@@ -1,0 +1,95 @@
+"""Mode shapes: how a structure moves in its natural vibrations, and what is strained."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.validation.check import METRES
+from assur.machine.elasticity.energies import EnergyShares, energy_shares
+from assur.machine.elasticity.strains import Strains
+from assur.machine.elasticity.structure_masses import beam_motion
+from assur.machine.elasticity.vibrations import Vibrations
+from assur.machine.masses.bars import joint_points
+
+FloatArray = NDArray[np.float64]
+SECTIONS = 9
+"""Of each beam, ends included: a cubic is a curve then."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModeShape:
+    """One natural vibration at its largest: of all points of `links` that which moves most has gone one metre.
+
+    Attributes:
+        frequency: in Hz.
+        platform: (6,) displacement of the platform's point in m, then its rotation in rad.
+        links: link -> points (k, 3) at rest in the base frame, and their displacements (k, 3), in m: nine sections of
+            each beam, the joints of a rigid link.
+        shares: of the strain energy.
+    """
+
+    frequency: float
+    platform: FloatArray
+    links: Mapping[str, tuple[FloatArray, FloatArray]]
+    shares: EnergyShares
+
+
+def mode_shapes(own: Vibrations) -> tuple[ModeShape, ...]:
+    """The shape of each vibration, its sign so that the platform's largest displacement is positive.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.machine.elasticity.stiffness import stiffness
+    >>> slowest = stiffness(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315]).mode_shapes()[0]
+    >>> max(slowest.shares.links, key=slowest.shares.links.get)
+    'link12'
+    """
+    rest = _at_rest(own.state)
+    motions = _motions(own.state)
+    found = []
+    for frequency, shape in zip(own.frequencies, own.shapes.T, strict=True):
+        links = {link: motion @ shape for link, motion in motions.items()}
+        platform = own.state.platform[0] @ shape
+        largest = float(np.max(np.linalg.norm(np.concatenate(list(links.values())), axis=1)))
+        sense = np.sign(platform[np.argmax(np.abs(platform[:3]))]) or 1.0
+        unit = sense / (largest or 1.0)
+        moved = {link: (rest[link], unit * displaced) for link, displaced in links.items()}
+        shares = energy_shares(own.state, shape[:, None])
+        found.append(ModeShape(float(frequency), unit * platform, moved, shares))
+    return tuple(found)
+
+
+def _at_rest(state: Strains) -> dict[str, FloatArray]:
+    """Points (k, 3) of every link in the base frame, in m."""
+    record, beams = state.structure.record, state.structure.beams
+    metre = METRES[record.unit]
+    found = {}
+    for link in record.links:
+        turn, origin = (part[0] for part in state.frames[link])
+        places = [
+            beam.first + share * (beam.second - beam.first)
+            for beam in beams
+            if beam.link == link
+            for share in np.linspace(0.0, 1.0, SECTIONS)
+        ] or [metre * point for point in joint_points(record, link).values()]
+        found[link] = origin + np.reshape(places, (-1, 3)) @ turn.T
+    return found
+
+
+def _motions(state: Strains) -> dict[str, FloatArray]:
+    """Displacements (k, 3, U) of those points per unknown."""
+    structure = state.structure
+    found: dict[str, list[FloatArray]] = {link: [] for link in structure.record.links}
+    for place, beam in enumerate(structure.beams):
+        along = beam.beam.carried(np.linspace(0.0, beam.beam.length, SECTIONS))[:, :3]  # (s, 3, 12)
+        found[beam.link].append(state.beam_axes[0, place] @ along @ beam_motion(state, place))
+    for link, points in _at_rest(state).items():
+        if not found[link]:
+            twist = state.twists(structure.bodies.index((link, 0)))[0]
+            levers = points - state.point[0]
+            turned = np.cross(twist[None, :3], levers[..., None], axis=1)
+            found[link].append(state.length * twist[3:] + turned)
+    return {link: np.concatenate(parts) for link, parts in found.items()}
