@@ -13,7 +13,7 @@ from assur.figures.graph import edges, graph_drawing
 from assur.figures.style import ORANGE, SERIES, styled
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.registry import topology_names
-from assur.results.answers.topology import AssurChain, Loop
+from assur.results.answers.solution_order import AssurChain, Loop
 from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
 from catalogue import each
 

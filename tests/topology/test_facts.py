@@ -4,7 +4,8 @@ import dataclasses
 
 import pytest
 
-from assur.results.answers.topology import Loop, RedundantConstraints
+from assur.results.answers.solution_order import Loop
+from assur.results.answers.topology import RedundantConstraints
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import PocSet

@@ -24,7 +24,7 @@ from assur.figures.symbols import hatching
 from assur.topology.screws.linkage import Linkage
 
 if TYPE_CHECKING:
-    from assur.results.answers.topology import AssurChain, Loop
+    from assur.results.answers.solution_order import AssurChain, Loop
 
 FloatArray = NDArray[np.float64]
 RADIUS = 6.6

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assur.model.topology_description import Mode
-from assur.results.answers.topology import Loop, RedundantConstraints
+from assur.results.answers.solution_order import Loop
+from assur.results.answers.topology import RedundantConstraints
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.limbs import JOINT_KINDS
 from assur.topology.chains import Chain

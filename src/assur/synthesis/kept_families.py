@@ -18,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from assur.cache import code_digest, own_place, trim
 from assur.model.topology_description import Mode
-from assur.results.answers.topology import AssurChain, Loop
+from assur.results.answers.solution_order import AssurChain, Loop
 from assur.synthesis.assembly import MechanismFamily
 from assur.synthesis.designs import Design, DeterminingSet
 from assur.synthesis.isomorphism import Key

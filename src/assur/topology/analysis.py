@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.results.answers.topology import Loop, OperationModeFacts, RedundantConstraints
+from assur.results.answers.solution_order import Loop
+from assur.results.answers.topology import OperationModeFacts, RedundantConstraints
 from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.alike import alike_limbs
@@ -33,7 +34,8 @@ from assur.topology.facts import InputsBy, Known, LimbFacts, Topology
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
-from assur.topology.screws.configurations import Hold, home_is_special
+from assur.topology.screws.assembly_equations import Hold
+from assur.topology.screws.configurations import home_is_special
 from assur.topology.screws.edges import Edge, closure, rank
 from assur.topology.screws.limb_linkage import is_seen_at_end
 from assur.topology.screws.linkage import Linkage

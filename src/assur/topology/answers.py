@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from assur.results.answers.solution_order import PlanAnswer
 from assur.results.answers.topology import (
     ActuationAnswer,
     LimbAnswer,
-    PlanAnswer,
     PlatformPoc,
     PocDirection,
     PreloadSpace,

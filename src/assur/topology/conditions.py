@@ -17,7 +17,7 @@ import numpy as np
 from assur.errors import AssurError
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import EXACT, Vector, cross, dot, parallel, unit
-from assur.topology.screws.configurations import Hold
+from assur.topology.screws.assembly_equations import Hold
 from assur.topology.screws.modes import operation_modes
 from assur.topology.screws.placing import place
 

@@ -13,7 +13,8 @@ from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.poc import PocSet, motion_name
 
 if TYPE_CHECKING:
-    from assur.results.answers.topology import AssurChain, Loop, OperationModeFacts, RedundantConstraints, Relaxation
+    from assur.results.answers.solution_order import AssurChain, Loop
+    from assur.results.answers.topology import OperationModeFacts, RedundantConstraints, Relaxation
     from assur.topology.counting.actuation import Actuation
     from assur.topology.counting.decoupling import Decoupling
     from assur.topology.counting.freedom_type import FreedomType

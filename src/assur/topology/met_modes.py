@@ -19,7 +19,7 @@ from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.poc import motion_name
-from assur.topology.screws.configurations import Hold
+from assur.topology.screws.assembly_equations import Hold
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.mode_kinds import ModeKind, kind_around, kinds_met
 from assur.topology.screws.mode_meetings import meetings_met

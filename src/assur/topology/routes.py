@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.results.answers.topology import Loop
+from assur.results.answers.solution_order import Loop
 from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain, InnerLoop
 from assur.topology.facts import Known

@@ -37,9 +37,9 @@ from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import InputsBy, Known, Topology
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, by_rules, limb_alone
-from assur.topology.screws.configurations import UNSTEADY
 from assur.topology.screws.edges import Edge, along
 from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.parallelograms import UNSTEADY
 from assur.topology.screws.recognition import recognised
 from assur.topology.screws.second_order import FiniteMotion, finite_motion
 from assur.topology.screws.twists import UnclearRankError, edges

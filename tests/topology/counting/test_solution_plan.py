@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.model.registry import topology_names
-from assur.results.answers.topology import AssurPlan, PlanStep
+from assur.results.answers.solution_order import AssurPlan, PlanStep
 from assur.topology.answers import answers
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs, numbered_inputs

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from assur.results.answers.answer import ABSENT, Absent, Answer, named
-from assur.results.answers.topology import Names, RedundantConstraints, WrittenPoc
+from assur.results.answers.solution_order import Names
+from assur.results.answers.topology import RedundantConstraints, WrittenPoc
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.results.answers.topology import AssurChain, Loop
+from assur.results.answers.solution_order import AssurChain, Loop
 from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
 from assur.topology.screws.edges import Edge, closure, rank
 

@@ -12,7 +12,7 @@ from typing import Literal
 import networkx as nx
 import numpy as np
 
-from assur.results.answers.topology import AssurChain, Loop
+from assur.results.answers.solution_order import AssurChain, Loop
 from assur.topology.screws.edges import Edge, at_generic, closure, input_columns, null_basis
 
 FreedomType = Literal["full", "partial", "separable"]

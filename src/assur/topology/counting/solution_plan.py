@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.results.answers.topology import AssurChain, AssurPlan, Loop, PlanStep
+from assur.results.answers.solution_order import AssurChain, AssurPlan, Loop, PlanStep
 from assur.results.plain_text import count
 from assur.topology.counting.actuation import locked_freedoms
 from assur.topology.counting.coupling import Decomposition

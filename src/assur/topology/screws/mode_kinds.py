@@ -11,9 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.screws.configurations import Hold, closed_by_chance, crossed, lasting, walked
+from assur.topology.screws.assembly_equations import Hold
+from assur.topology.screws.configurations import closed_by_chance
 from assur.topology.screws.edges import closure, rank
+from assur.topology.screws.finite_motion import lasting, walked
 from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.parallelograms import crossed
 from assur.topology.screws.twists import (
     ShakyError,
     UnclearRankError,

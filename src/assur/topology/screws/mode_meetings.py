@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.least_squares import minimise
-from assur.topology.screws.configurations import CLOSED, EXACTLY, Equations, Hold, crossed, loop_equations
+from assur.topology.screws.assembly_equations import CLOSED, EXACTLY, Equations, Hold, loop_equations
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.mode_kinds import ModeKind, kind_around, numbers_at
+from assur.topology.screws.parallelograms import crossed
 from assur.topology.screws.screws import screw_tree
 
 FloatArray = NDArray[np.float64]

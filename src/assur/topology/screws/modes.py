@@ -15,15 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.poc import PocSet
-from assur.topology.screws.configurations import (
-    Hold,
-    ImmobileError,
-    finite_directions,
-    home_is_special,
-    lasting,
-    walked,
-)
+from assur.topology.screws.assembly_equations import Hold
+from assur.topology.screws.configurations import ImmobileError, home_is_special
 from assur.topology.screws.edges import along, closure, null_basis, rank
+from assur.topology.screws.finite_motion import finite_directions, lasting, walked
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.twists import (
     ShakyError,

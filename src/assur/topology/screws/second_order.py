@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.screws.configurations import BLURRED, follows, loop_equations, walked
+from assur.topology.screws.assembly_equations import loop_equations
 from assur.topology.screws.edges import along, closure, rank
+from assur.topology.screws.finite_motion import BLURRED, follows, walked
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.screws import screw_tree
 from assur.topology.screws.twists import CLEAR, UnclearRankError, edges

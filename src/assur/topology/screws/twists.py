@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError, UsageError
-from assur.topology.screws.configurations import BLURRED, Hold, configurations, home_is_special
+from assur.topology.screws.assembly_equations import Hold
+from assur.topology.screws.configurations import configurations, home_is_special
 from assur.topology.screws.edges import RANK_GAP, Edge, along, closure
+from assur.topology.screws.finite_motion import BLURRED
 from assur.topology.screws.linkage import Group, Linkage
 from assur.topology.screws.screws import screw_tree
 
