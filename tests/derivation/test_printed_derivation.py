@@ -13,6 +13,7 @@ import pytest
 from tests.helpers.latex_numbers import Reader
 
 from assur.audit.equations import evaluate
+from assur.cli.main import main
 from assur.derivation.derivation import derive
 from assur.derivation.document import document
 from assur.derivation.numeric_example import example_branches
@@ -203,3 +204,19 @@ def test_the_letters_of_the_page_on_the_seed_are_those_of_the_paper():
             assert abs(derived[name] - theirs) < 1e-8 * max(1.0, abs(theirs)), (name, text)
             checked += 1
     assert checked == 9 * 4
+
+
+@pytest.mark.deep
+def test_the_example_of_rods_oblique_to_their_hinges_is_an_answer_of_the_joint_graph(tmp_path):
+    """The cranks' angles follow from where the rods point."""
+    file, target = tmp_path / "own.toml", tmp_path / "own.tex"
+    assert main(["new", str(file), "--limb", "R[y] P(4R)[x] R[y] R[y]"]) == 0
+    assert main(["derive", str(file), "--latex", str(target)]) == 5
+    text = target.read_text(encoding="ascii")
+    pose = [float(value) for value in re.findall(r"\$[xyz] = (-?[\d.]+)\$ mm", text)]
+    lines = re.findall(r"^\$\{.*", text, re.MULTILINE)
+    rows = [[float(value) for value in re.findall(r"\$(-?\d+\.\d+)\$", line)] for line in lines]
+    answer = np.degrees(inverse(load_record(file), pose).inputs).reshape(-1, 3)
+    for row in rows:
+        assert np.min(np.linalg.norm(answer - row, axis=1)) < 1e-3
+    assert len(rows) == 8

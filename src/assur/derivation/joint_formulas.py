@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -53,6 +54,18 @@ class Pointing:
     def square(self) -> sympy.Expr:
         """What is zero where the rod points along the axis of what carries it."""
         return self.ahead**2 + self.beside**2
+
+    def at(self, values: Mapping[sympy.Symbol, float]) -> dict[sympy.Expr, float]:
+        """Numbers of the cosines and sines of both angles, at values of the unknowns."""
+        sense = -1.0 if self.back else 1.0
+        x, y, along, lean, level = (
+            float(sympy.sympify(part).subs(values))
+            for part in (sense * self.ahead, sense * self.beside, self.along, sense * self.lean, self.level)
+        )
+        square = x * x + y * y
+        across = math.sqrt(max(square - lean * lean, 0.0))
+        carrier = (x * across + y * lean) / square, (y * across - x * lean) / square
+        return dict(zip((*self.carrier, *self.hinge), (*carrier, sense * across / level, along / level), strict=True))
 
     @property
     def room(self) -> sympy.Expr:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +12,7 @@ import numpy as np
 import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
+from assur.derivation.joint_formulas import Pointing
 from assur.derivation.letters_of_names import input_letter, letter, plain, sign_formula
 from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
@@ -223,9 +224,12 @@ class _Problem:
     def _results(self) -> list[tuple[str, bool, Callable[[Mapping[sympy.Symbol, float]], float]]]:
         """Letter, whether it is an angle, and its value."""
         if self.problem == "inverse":
-            pairs = ClosedFormFormulas(self.solution, self.solution, {}).input_pairs
+            formulas = ClosedFormFormulas(self.solution, self.solution, {})
+            pairs, rods = formulas.input_pairs, formulas.joints.pointings
             names = [input_letter(driven) for driven in self.record.inputs]
-            return [(name, isinstance(pair, tuple), _valued(pair)) for name, pair in zip(names, pairs, strict=True)]
+            return [
+                (name, isinstance(pair, tuple), _valued(pair, rods)) for name, pair in zip(names, pairs, strict=True)
+            ]
         place = dict(zip("xyz", self.solution.point, strict=True))
         turned = _turned(self.solution) if {*self.record.platform.pose} - {*place} else None
         return [
@@ -252,13 +256,20 @@ def _turned(solution: AnalyticSolution) -> Callable[[str], Callable[[Mapping[sym
     return lambda name: lambda values: coordinates(values)[name]
 
 
-def _valued(pair: sympy.Expr | tuple[sympy.Expr, sympy.Expr]) -> Callable[[Mapping[sympy.Symbol, float]], float]:
+def _valued(
+    pair: sympy.Expr | tuple[sympy.Expr, sympy.Expr], rods: Sequence[Pointing] = ()
+) -> Callable[[Mapping[sympy.Symbol, float]], float]:
+    """What a formula, or the angle of a cosine and a sine, is at values of the unknowns and of how rods point."""
     parts = pair if isinstance(pair, tuple) else (pair,)
     arguments = sorted({symbol for part in parts for symbol in sympy.sympify(part).free_symbols}, key=str)
     formulas = [sympy.lambdify(arguments, part, "math") for part in parts]
+    used = [rod for rod in rods if {*arguments} & {*rod.carrier, *rod.hinge}]
 
     def value(values: Mapping[sympy.Symbol, float]) -> float:
-        numbers = [float(formula(*(values[own] for own in arguments))) for formula in formulas]
+        whole = {**values}
+        for rod in used:
+            whole |= rod.at(values)
+        numbers = [float(formula(*(whole[own] for own in arguments))) for formula in formulas]
         return math.atan2(numbers[1], numbers[0]) if len(numbers) == 2 else numbers[0]
 
     return value
