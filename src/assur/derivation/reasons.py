@@ -27,7 +27,7 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
 
 def left_out(placed: LinkOrientations) -> Iterator[str]:
     """What no formula says: a sentence for each link that is taken to stand as at home, though its axes close another
-    way too, and for each rod oblique to its hinge, which is real for a part of all directions alone.
+    way too, and for each rod oblique to its hinge, which is real for a part of all directions alone, in two ways.
 
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
@@ -52,7 +52,8 @@ def _oblique(placed: LinkOrientations) -> Iterator[str]:
         if lean != 0:
             level = sympy.sqrt(sympy.factor_terms(sympy.simplify(1 - lean**2)))
             axis = direction(own.axis)
-            yield f"{link} is oblique to its hinge, and real only where its direction has at most {level} along {axis}"
+            real = f"{link} is oblique to its hinge, and real only where its direction has at most {level} along {axis}"
+            yield f"{real}; it is taken to be on home's side of its hinge, and may point so on the other side too"
 
 
 def _turned(cosine: sympy.Expr, sine: sympy.Expr) -> str:
