@@ -91,7 +91,7 @@ def test_inputs_of_a_mechanism_with_dimensions_by_number():
 @pytest.mark.parametrize(
     ("what", "options", "error", "words"),
     [
-        ("tripteronn", {}, UnknownNameError, "did you mean tripteron?"),
+        ("tripteronn", {}, UnknownNameError, "did you mean tripteron"),
         ("tri_pyramid", {}, UnknownNameError, "is left out"),
         ("nowhere.toml", {}, UsageError, "nowhere.toml"),
         ("some/where", {}, UsageError, "some/where"),

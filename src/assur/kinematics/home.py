@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError, Problem
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import assemble, gap_left
 from assur.model.mechanism import MechanismRecord
 
@@ -39,6 +40,12 @@ def home_values(record: MechanismRecord) -> FloatArray:
         found = carried_home(record, found)
     found.values.flags.writeable = False
     return found.values
+
+
+def check_loops(record: MechanismRecord) -> None:
+    """Raise `MechanismFileError` for a file of nothing but serial chains."""
+    if not joint_graph(record).cut:
+        raise MechanismFileError([without_loops(record)])
 
 
 def without_loops(record: MechanismRecord) -> Problem:

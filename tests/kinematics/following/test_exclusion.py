@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,6 @@ from assur.performance.indices import indices
 from assur.singularity.verdict import verdict
 
 SLIDER_CRANK = ["R[z] R[z]", "P[x] R[z]"]
-TURNING = ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"]
 
 
 def drafted(folder, name, chains):
@@ -124,9 +124,9 @@ def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
     assert "which is no proof" in found.words
 
 
-def test_a_platform_that_home_never_turns_over_is_in_another_mode_where_it_is(tmp_path):
+def test_a_platform_that_home_never_turns_over_is_in_another_mode_where_it_is():
     """The proof wants all solutions: what a search met is turned over too, but may not be all."""
-    turning = load(drafted(tmp_path, "turning", TURNING))
+    turning = load(Path(__file__).with_name("m2.toml"))
     pose = np.array([10.0, 300.0, np.radians(5)])
     there = inverse(turning, pose)
     assert there.complete

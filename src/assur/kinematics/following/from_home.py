@@ -13,7 +13,7 @@ from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.neighbours import SignGuard, held_signs, joined, steps_at
 from assur.kinematics.following.stepping import Pace, followed
 from assur.kinematics.following.ways import Straight
-from assur.kinematics.home import home_values
+from assur.kinematics.home import check_loops, home_values
 from assur.kinematics.pose import pose_of, turned_alike
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
@@ -84,6 +84,9 @@ def followed_by_ways(record: MechanismRecord, poses: FloatArray) -> FloatArray:
 
     Angles go the short way. What a pose gets depends on that pose alone; that none of the ways leads to it is no proof.
 
+    Errors:
+        MechanismFileError: a file of nothing but serial chains.
+
     Example: the five-bar, up to where its elbows straighten, and beyond.
 
         >>> from assur.model.registry import load_record
@@ -91,6 +94,7 @@ def followed_by_ways(record: MechanismRecord, poses: FloatArray) -> FloatArray:
         >>> np.isfinite(joints[:, 0]).tolist()
         [True, False]
     """
+    check_loops(record)
     with stage("ways of home's mode to poses", len(poses)) as work:
         parts = [np.empty((0, len(record.coordinates)))]
         for first in range(0, len(poses), AT_ONCE):

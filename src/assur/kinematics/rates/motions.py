@@ -12,11 +12,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import MechanismFileError
 from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import RANK_GAP, assemble, closure_jacobian, rank_of
-from assur.kinematics.home import home_values, without_loops
+from assur.kinematics.home import check_loops, home_values
 from assur.kinematics.pose import platform_twists, turning_rates
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
@@ -168,8 +166,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     Errors:
         MechanismFileError: a file of nothing but serial chains.
     """
-    if not joint_graph(record).cut:
-        raise MechanismFileError([without_loops(record)])
+    check_loops(record)
     threshold = SINGULAR * general_share(record) if threshold is None else threshold
     scale = joint_units(record)
     closure = closure_jacobian(record, values) * scale  # (..., 6 v, n)
