@@ -39,3 +39,14 @@ def test_what_a_base_stands_on_reaches_under_every_rail(every):
         for rail in rails(every.skeleton, every.companion):
             assert np.all(rail.ends[:, :2] >= low)
             assert np.all(rail.ends[:, :2] <= high)
+
+
+def test_a_column_ends_in_the_middle_of_its_rail():
+    """Also of one that lies below its slider, as what is hinged to the slider needs room."""
+    for name in ("orthoglide", "linear_delta_4s", "tripteron"):
+        made = machine(assur.load(name))
+        beds = [part.shape for part in made if part.role == "rail"]
+        for column in (part.shape for part in made if part.role == "column"):
+            ends = [bed.centre + sense * bed.sides[0] for bed in beds for sense in (-1, 1)]
+            tops = [*ends, *(part.shape.start for part in made if part.role == "column")]
+            assert min(np.linalg.norm(column.end - top) for top in tops) < 1e-9 * np.max(np.abs(ends))

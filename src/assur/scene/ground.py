@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +28,8 @@ WAYS = 12
 THICKEST = 1.6
 """What is drawn about points that a plate must not hide reaches so far, in thicknesses."""
 
-HIGH = 6.0
-"""A rail whose lower end is higher above the plate than so many thicknesses has a column."""
+HIGH = 1.5
+"""A rail whose middle line is higher above the plate than so many thicknesses does not lie on it: it has columns."""
 
 UNDER, FREE, BESIDE = 6.0, 5.0, 3.0
 """How far a plate lies below what hangs between its columns; room between a rod and a column below an upright rail, and
@@ -57,11 +58,13 @@ def ground(
     laid, lowest = rails(skeleton, companion), 1.6
     feet = [mark.at for mark in skeleton.marks if mark.grounded and not mark.slides]
     deep = depth(skeleton, size)
+    sunk = []
     for k, rail in enumerate(laid, 1):
         side, up = bed(skeleton, rail.sliders[0], deep)
+        below = (0.65 * size + deep) * up
+        sunk.append(replace(rail, start=rail.start - below, end=rail.end - below))
         sides = np.array([(rail.end - rail.start) / 2, 0.8 * size * side, 0.95 * size * up])
-        middle = (rail.start + rail.end) / 2 - (0.65 * size + deep) * up
-        yield Part(f"rail {k}", base, Cuboid(middle, sides), STEEL, "rail")
+        yield Part(f"rail {k}", base, Cuboid(sunk[-1].ends.mean(axis=0), sides), STEEL, "rail")
         lowest = max(lowest, float(1.6 + deep / size * up[2]))
         feet += [rail.start, rail.end]
     drop = _drop(skeleton, np.array(feet), lowest if laid else None, size) if feet else None
@@ -72,7 +75,7 @@ def ground(
                     yield Part(f"{yoke.joint} {role}", base, shape, DARK, role, yoke.joint)
         return
     top = float((np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size)
-    columns = [shape for rail in laid for shape in _columns(skeleton, rail, top, size)]
+    columns = [shape for rail in sunk for shape in _columns(skeleton, rail, top, size)]
     feet += [shape.start for shape in columns]
     outline = _outline(np.array(feet)[:, :2], 3.2 * size, bool(laid))
     corners = np.column_stack([outline, np.full(len(outline), top - 1.3 * size)])
