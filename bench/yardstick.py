@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.modes import mode_signs
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.status import closed_form_of, tolerance
 from assur.model.mechanism import MechanismRecord
 
 HERE = Path(__file__).parent

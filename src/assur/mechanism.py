@@ -12,16 +12,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from assur.joint_graph.frames import Frame, frames
-from assur.kinematics import closure, position
-from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.border import Named, checked_joints, joint_array
+from assur.kinematics.border import Named
 from assur.kinematics.contract.admission import admitted_record, check_closed_form
-from assur.kinematics.home import home_values
-from assur.kinematics.modes import Method
+from assur.machine.mechanics import Mechanics
 from assur.model import registry
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, is_angle
@@ -29,19 +24,6 @@ from assur.model.pose import LENGTHS, is_angle
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from assur.kinematics.certified.certify import Way as ProofWay
-    from assur.kinematics.certified.result import CertifiedSolutions
-    from assur.kinematics.following.path import Path as Way
-    from assur.kinematics.rates.instantaneous import Instant
-    from assur.kinematics.rates.velocity import VelocityMap
-    from assur.machine.accuracy.pose_errors import PoseErrors
-    from assur.machine.dynamics.free_motion import FreeMotion
-    from assur.machine.dynamics.inverse_dynamics import MotionForces
-    from assur.machine.dynamics.prescribed_motion import PrescribedMotion
-    from assur.machine.dynamics.release import Release
-    from assur.machine.dynamics.small_motions import SmallMotions
-    from assur.machine.elasticity.stiffness import Stiffness
-    from assur.machine.forces.actuator_forces import ActuatorForces
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
     from assur.singularity.verdict import Verdict
@@ -50,169 +32,113 @@ if TYPE_CHECKING:
     from assur.workspace.aspects.aspects import Aspects
     from assur.workspace.region import Workspace
 
-FloatArray = NDArray[np.float64]
 
-
-class Mechanism(MechanismRecord):
+class Mechanism(Mechanics):
     """A mechanism, from `assur.load`. Poses are (..., m), inputs (..., n), lengths in its unit, angles in rad.
 
     Values of joints, inputs and poses may be given by name as well, as `Solution.joints` has them.
     """
 
     def with_parameters(self, /, **values: float) -> Self:
-        """The same mechanism with other dimensions, checked as those of the file are."""
+        """The same mechanism with other dimensions, checked as those of the file are.
+
+        Lengths in its unit, angles as the file has them. Errors: UnknownNameError, with the nearest name; UsageError
+        for a value that the parameter may not have; MechanismFileError where a closed form does not agree with it.
+
+        >>> longer = load("zeng2019").with_parameters(l2=300)
+        >>> longer.values.l2, load("zeng2019").values.l2
+        (300.0, 280.0)
+        """
         from assur.model.dimensions import with_parameters  # which reads the file again
 
         changed = with_parameters(self, **values)
         check_closed_form(changed)
         return changed
 
-    def direct(
-        self, inputs: ArrayLike, mode: str | None = None, method: Method = "auto", *, crossed: bool = False
-    ) -> SolutionSet:
-        """Every pose at inputs (..., n): see `assur.kinematics.position.direct`."""
-        return position.direct(self, inputs, mode, method, crossed=crossed)
-
-    def inverse(
-        self, poses: ArrayLike, mode: str | None = None, method: Method = "auto", *, crossed: bool = False
-    ) -> SolutionSet:
-        """All inputs at poses (..., m): see `assur.kinematics.position.inverse`."""
-        return position.inverse(self, poses, mode, method, crossed=crossed)
-
-    def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
-        """Jp and Jq at poses (..., m): see `assur.kinematics.rates.velocity.velocity_map`."""
-        from assur.kinematics.rates.velocity import velocity_map
-
-        return velocity_map(self, poses, mode)
-
-    def velocity_map_at(self, joint_values: Named) -> VelocityMap:
-        """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.rates.velocity`."""
-        from assur.kinematics.rates.velocity import velocity_map_at
-
-        return velocity_map_at(self, joint_values)
-
-    def acceleration(
-        self,
-        poses: ArrayLike,
-        input_rates: ArrayLike,
-        input_accelerations: ArrayLike,
-        mode: str | None = None,
-    ) -> tuple[FloatArray, FloatArray]:
-        """Velocity and acceleration of the pose: see `assur.kinematics.rates.acceleration`."""
-        from assur.kinematics.rates.acceleration import acceleration
-
-        return acceleration(self, poses, input_rates, input_accelerations, mode)
-
-    def forces(
-        self,
-        poses: ArrayLike,
-        velocity: ArrayLike | None = None,
-        acceleration: ArrayLike | None = None,
-        load: ArrayLike | None = None,
-        *,
-        gravity: bool = True,
-        mode: str | None = None,
-    ) -> ActuatorForces:
-        """Forces of the actuators, energies and terms of motion at poses (..., m): `machine.forces.actuator_forces`."""
-        from assur.machine.forces.actuator_forces import forces
-
-        return forces(self, poses, velocity, acceleration, load, gravity=gravity, mode=mode)
-
-    def stiffness(self, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:
-        """How the platform gives way at poses (..., m): see `machine.elasticity.stiffness.stiffness`."""
-        from assur.machine.elasticity.stiffness import stiffness
-
-        return stiffness(self, poses, mode, shear=shear)
-
-    def dynamics(self, motion: PrescribedMotion, mode: str | None = None, **options: Any) -> MotionForces:
-        """Forces of the actuators along a motion in time: options as `machine.dynamics.inverse_dynamics` has them."""
-        from assur.machine.dynamics.inverse_dynamics import dynamics
-
-        return dynamics(self, motion, mode, **options)
-
-    def free_motion(self, release: Release, mode: str | None = None, **options: Any) -> FreeMotion:
-        """The motion from a start by given forces: see `machine.dynamics.free_motion.free_motion` for the options."""
-        from assur.machine.dynamics.free_motion import free_motion
-
-        return free_motion(self, release, mode, **options)
-
-    def small_motions(self, pose: ArrayLike, mode: str | None = None, **options: Any) -> SmallMotions:
-        """Small motions about a held pose (m,): see `machine.dynamics.small_motions.small_motions` for the options."""
-        from assur.machine.dynamics.small_motions import small_motions
-
-        return small_motions(self, pose, mode, **options)
-
-    def errors(self, pose: ArrayLike, mode: str | None = None) -> PoseErrors:
-        """How errors of dimensions and inputs move the platform: see `machine.accuracy.pose_errors.pose_errors`."""
-        from assur.machine.accuracy.pose_errors import pose_errors
-
-        return pose_errors(self, pose, mode)
-
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
-        """The verdict on one pose (m,): see `assur.singularity.verdict`."""
+        """The verdict on one pose (m,), in its unit and rad: `assur.singularity.verdict`.
+
+        In a working mode, the file's default without one. `kind` is a status by name, the most severe of what the
+        factors of det Jp and det Jq say and of what the rank of the joint graph says.
+
+        >>> mechanism, pose = load("zeng2019"), [-15.4714, 9.6849, 456.3315]
+        >>> mechanism.singularity(pose, "++-++").kind, mechanism.singularity(pose, "+++++").kind
+        ('regular', 'self_motion')
+        """
         from assur.singularity.verdict import verdict
 
         return verdict(self, pose, mode)
 
     def singularity_at(self, joint_values: Named) -> Verdict:
-        """The verdict on one configuration of the joint graph (n,): see `assur.singularity.verdict.verdict_at`."""
+        """The verdict on one configuration of the joint graph, joint values (c,) or by name.
+
+        >>> fivebar = load("fivebar")
+        >>> verdict = fivebar.singularity_at(fivebar.home_values)
+        >>> verdict.kind, verdict.freedoms
+        ('regular', 2)
+        """
         from assur.singularity.verdict import verdict_at
 
         return verdict_at(self, joint_values)
 
-    def instantaneous(self, joint_values: Named) -> Instant:
-        """First-order motion at joint values (..., n): see `assur.kinematics.rates.instantaneous.instantaneous`."""
-        from assur.kinematics.rates.instantaneous import instantaneous
-
-        return instantaneous(self, joint_values)
-
-    def certified_direct(self, inputs: ArrayLike, way: ProofWay = "auto") -> CertifiedSolutions:
-        """The poses at inputs (n,), proved by intervals: see `assur.kinematics.certified.certify`."""
-        from assur.kinematics.certified.certify import certified_direct
-
-        return certified_direct(self, inputs, way)
-
-    def certified_inverse(self, pose: ArrayLike, way: ProofWay = "auto") -> CertifiedSolutions:
-        """The inputs at a pose (m,), proved by intervals: see `assur.kinematics.certified.certify`."""
-        from assur.kinematics.certified.certify import certified_inverse
-
-        return certified_inverse(self, pose, way)
-
     def workspace(self, mode: str | None = None, **options: Any) -> Workspace:
-        """The workspace of a working mode: see `assur.workspace.region.workspace` for the options."""
+        """The workspace of a working mode in a box, with the error of its volume: `assur.workspace.region.workspace`.
+
+        Options (`box`, `strokes`, `resolution`, `sections`, ...) and errors are as there; lengths in its unit, angles
+        in rad. A region that is empty has the volume 0.
+
+        The rods of 194 mm carry the paper's point through 45629.17 mm2, for 500 mm along Y:
+
+        >>> region = load("zeng2019").workspace(resolution=32)
+        >>> abs(region.volume - 500 * 45629.17) < region.volume_error < 0.001 * region.volume
+        True
+        """
         from assur.workspace.region import workspace
 
         return workspace(self, mode, **options)
 
     def aspects(self, mode: str | None = None, **options: Any) -> Aspects:
-        """The aspects of a working mode, proved: see `assur.workspace.aspects.aspects.aspects` for the options."""
+        """The aspects of a working mode: parts of its workspace without a parallel singularity, proved.
+
+        Options and errors are those of `assur.workspace.aspects.aspects.aspects`; it needs a closed form.
+
+        >>> [aspect.label for aspect in load("fivebar").aspects("-+").aspects]
+        ['+']
+        """
         from assur.workspace.aspects.aspects import aspects
 
         return aspects(self, mode, **options)
 
     def indices(self, poses: ArrayLike, mode: str | None = None, characteristic_length: Length = None) -> Indices:
-        """Condition, manipulability, transmission at poses (..., m): see `assur.performance.indices.indices`."""
+        """Condition, manipulability, transmission (...) at poses (..., m), by name: `assur.performance.indices`.
+
+        In a working mode, the file's default without one. The characteristic length is in the mechanism's unit, or
+        "isotropic". Errors: UsageError for a length that is none, poses of a wrong shape.
+
+        >>> indices = load("orthoglide").indices([[0.0, 0.0, 0.0], [73.2050807568877] * 3])
+        >>> indices["condition"].round(6).tolist()  # isotropic at the origin; velocity factors 2 and 4/5 at a corner
+        [1.0, 0.4]
+        """
         from assur.performance.indices import indices
 
         return indices(self, poses, mode, characteristic_length)
 
-    def follow(self, joint_values: Named, **options: Any) -> Way:
-        """The way from an assembly to inputs or to a pose, the mode kept; see `kinematics.following.following`."""
-        from assur.kinematics.following.following import follow
-
-        return follow(self, checked_joints(self, joint_values), **options)
-
     def topology(self, actuate: Sequence[str] | None = None, mode: Mode | None = None) -> Topology:
-        """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""
+        """POC set, degrees of freedom, coupling degree and what follows from them, Eqs. (1) to (6): `assur.topology`.
+
+        Args:
+            actuate: actuated joints as "limb.joint", from 1; its inputs without.
+            mode: "home", "translation" or the name of an operation mode.
+
+        Errors: UsageError for inputs that there are not; RoutesDisagreeError where rules and twists differ.
+
+        >>> topology = load("zeng2019").topology()
+        >>> str(topology.poc), topology.dof, topology.xi, topology.coupling_degree
+        ('t³ r⁰', 3, (3, 5), 1)
+        """
         from assur.derived_topology import topology
 
         return topology(self, actuate=actuate, mode=mode)
-
-    def point(self, name: str, joint_values: Named) -> FloatArray:
-        """Position (..., 3) of a lettered point or of a joint: see `assur.joint_graph.points.point`."""
-        from assur.joint_graph.points import point
-
-        return point(self, name, joint_array(self, joint_values))
 
     def plot(self, figure: str = "solid", *, width: str = "") -> Figure:
         """A figure of `assur figures` as matplotlib's, at the width of a page; see `assur.figures.catalogue`.
@@ -233,12 +159,22 @@ class Mechanism(MechanismRecord):
         ...     load("fivebar").page(Path(folder) / "fivebar.html").name
         'fivebar.html'
         """
-        pages = import_module("assur.page")
-        written: Path = import_module("assur.results.files").write_whole(path, pages.page_html(pages.scene(self)))
-        return written
+        from assur.results.files import file_to_write, write_whole
+
+        target, pages = file_to_write(path), import_module("assur.page")
+        return write_whole(target, pages.page_html(pages.scene(self)))
 
     def report(self, path: str | Path, *, figures: bool = True) -> Path:
-        """Write everything about the mechanism as one HTML file and return its path; see `assur.report.report`."""
+        """Write everything about the mechanism as one HTML file and return its path.
+
+        Errors: OutputError for a path that cannot be written; what was there before is kept.
+
+        >>> load("fivebar").report("no_such_folder/fivebar.html")
+        Traceback (most recent call last):
+        ...
+        assur.errors.OutputError: cannot write no_such_folder/fivebar.html: the folder no_such_folder does not exist
+        hint: mkdir -p no_such_folder
+        """
         import_module("assur.report.report").write_report(self, path, figures=figures)
         return Path(path)
 
@@ -271,23 +207,6 @@ class Mechanism(MechanismRecord):
             for name, item in self.parameters.items()
         ]
         return ("what", "name", "value", "unit", "meaning"), rows
-
-    @property
-    def home_values(self) -> FloatArray:
-        """Joint values (n,) of the assembled home."""
-        return home_values(self)
-
-    def frames(self, joint_values: Named) -> dict[str, Frame]:
-        """Frame of every link, (..., 3, 3) and (..., 3) in the base frame, at joint values (..., n)."""
-        return frames(self, joint_array(self, joint_values))
-
-    def closure_error(self, joint_values: Named) -> FloatArray:
-        """Largest gap (...) over the cut joints, in length units."""
-        return closure.closure_error(self, joint_array(self, joint_values))
-
-    def mobility(self, joint_values: Named) -> closure.AssemblyMobility:
-        """Rank, freedoms and redundant constraints of the joint graph at joint values (..., n)."""
-        return closure.mobility(self, joint_array(self, joint_values))
 
 
 def load(name: str | Path, /, **parameters: Any) -> Mechanism:

@@ -15,8 +15,7 @@ from typing import Annotated, Any, Literal, TypeVar
 from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, ValidationError, create_model
 
 from assur.audit.printed import Printed
-from assur.errors import MechanismFileError, Problem, UsageError
-from assur.model.file.key_path import path_text
+from assur.errors import MechanismFileError, Problem, UsageError, path_text
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.file.values import Value, refuse, shown

@@ -16,9 +16,9 @@ from typing import Any
 from assur.errors import UsageError
 from assur.export.answers_about_home import answers_about_home
 from assur.export.c99_text import HEAD, LEFT_OVER, POLYNOMIAL, SELF_TEST
-from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.contract.kernel import Kernel, recorded
 from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.status import tolerance
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.kernel_dimensions import dimension_numbers
 from assur.model.mechanism import MechanismRecord

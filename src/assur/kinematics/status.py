@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
+from assur.model.closed_form import Branch, ClosedForm, Eliminant, Margin, PolynomialSystem
 from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 
@@ -128,3 +129,44 @@ def branch_kernel(record: MechanismRecord) -> Callable[..., Branch]:
         has = "one polynomial" if kernel else "none"
         raise UsageError(f"{record.name} has no closed direct solution by signs (it has {has})")
     return kernel
+
+
+HIGHEST = 4
+"""No margin's zero is of a higher order: the square of a product of two lengths."""
+
+
+def tolerance(record: MechanismRecord, margin: Margin) -> float:
+    """Within what a margin is zero, in its own unit.
+
+    A radicand: MARGIN_TOLERANCE of its scale. A quantity at whose zero the formulas degenerate: FACTOR_TOLERANCE
+    to the power of its unit, as the factor that vanishes with it, but for what it is multiplied with beyond that.
+    """
+    share = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** min(max(margin.unit, 1), HIGHEST)
+    return share * scale(record, margin.scale)
+
+
+def vanishes(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
+    """Where a margin (...) is zero within its tolerance."""
+    return np.asarray(np.abs(value) <= tolerance(record, margin))
+
+
+def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
+    """Where a margin (...) lets its branch exist: not negative, or not zero where the formulas degenerate.
+
+    >>> from assur.model.registry import load_record
+    >>> allows(load_record("zeng2019"), Margin("M", "l2*l2", "reach", unit=2), [1.0, 0.0, -1e-3])
+    array([ True,  True, False])
+
+    A margin that is no number allows nothing.
+    """
+    if margin.zero == "degenerate":
+        return np.asarray(np.abs(value) > tolerance(record, margin))
+    return np.asarray(np.asarray(value) >= -tolerance(record, margin))
+
+
+def exists(record: MechanismRecord, margins: Sequence[Margin], values: Mapping[str, Any]) -> BoolArray:
+    """Where every margin allows the branch; values (...) broadcast against each other."""
+    result: Any = True
+    for margin in margins:
+        result = result & allows(record, margin, values[margin.name])
+    return np.asarray(result)

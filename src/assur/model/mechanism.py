@@ -256,7 +256,12 @@ class MechanismRecord:
         return f"<{type(self).__name__} {self.name}: {self.title}>"
 
     def with_closed_form(self, form: ClosedForm | None, text: str, *, not_run: bool = False) -> Self:
-        """The same with what stands in the file of the closed form, which may name modes where the file does not."""
+        """The same with what stands in the file of the closed form, which may name modes where the file does not.
+
+        >>> import assur
+        >>> assur.load("fivebar").with_closed_form(None, "").closed_form is None
+        True
+        """
         modes = self.modes.completed(form.working, form.assembly) if form else self.modes
         return replace(self, closed_form=form, closed_form_text=text, closed_form_not_run=not_run, modes=modes)
 
@@ -286,20 +291,36 @@ class MechanismRecord:
         return tuple(item.coordinate.index for item in self.inputs)
 
     def parameter(self, name: str) -> Parameter:
-        """The parameter of that name."""
+        """The parameter of that name.
+
+        >>> import assur
+        >>> assur.load("zeng2019").parameter("l2").value
+        280.0
+        """
         if name not in self.parameters:
             raise UnknownNameError(f"parameter of {self.name}", name, self.parameters)
         return self.parameters[name]
 
     def joint(self, name: str) -> Joint:
-        """The joint of that name or alias."""
+        """The joint of that name or alias.
+
+        >>> import assur
+        >>> assur.load("zeng2019").joint("R3").name
+        'D1'
+        """
         for joint in self.joints.values():
             if name in (joint.name, joint.alias):
                 return joint
         raise UnknownNameError(f"joint of {self.name}", name, self.joints)
 
     def coordinate_label(self, coordinate: Coordinate) -> str:
-        """Name of a joint coordinate: the joint alone where it has one freedom, else joint.component."""
+        """Name of a joint coordinate: the joint alone where it has one freedom, else joint.component.
+
+        >>> import assur
+        >>> fivebar = assur.load("fivebar")
+        >>> [fivebar.coordinate_label(coordinate) for coordinate in fivebar.coordinates]
+        ['A1', 'A2', 'B1', 'B2', 'P']
+        """
         single = self.joints[coordinate.joint].type.freedoms == 1
         return coordinate.joint if single else f"{coordinate.joint}.{coordinate.component}"
 
@@ -309,7 +330,12 @@ class MechanismRecord:
         return math.radians(1.0) if self.angle == "deg" else 1.0
 
     def joint_coordinates(self, name: str) -> tuple[Coordinate, ...]:
-        """The coordinates of one joint, in the order of its components."""
+        """The coordinates of one joint, in the order of its components.
+
+        >>> import assur
+        >>> len(assur.load("fivebar").joint_coordinates("A1"))
+        1
+        """
         joint = self.joint(name)
         return tuple(item for item in self.coordinates if item.joint == joint.name)
 

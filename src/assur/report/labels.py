@@ -9,9 +9,8 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
-from assur.errors import MechanismFileError, Problem, cut
+from assur.errors import KeyPath, MechanismFileError, Problem, cut, path_text
 from assur.figures.labels import LONGEST, is_settable
-from assur.model.file.key_path import KeyPath, path_text
 from assur.model.file.place import input_place, problem
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord

@@ -34,7 +34,7 @@ from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
 from assur.results.answers.files import ReportNumber
 from assur.results.attempt import REFUSED, reason
-from assur.results.files import write_whole
+from assur.results.files import file_to_write, write_whole
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section
 from assur.work import Progress, stage, ticker
 
@@ -136,8 +136,9 @@ def write_report(
     record: MechanismRecord, path: str | Path, progress: Progress | None = None, *, figures: bool = True
 ) -> Page:
     """Write the report; the file is there whole or, with an `OutputError`, what was there before still is."""
+    target = file_to_write(path)
     page = report_page(Findings(record, illustrated=figures), progress)
-    write_whole(path, page_html(page))
+    write_whole(target, page_html(page))
     return page
 
 

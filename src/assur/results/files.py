@@ -9,8 +9,12 @@ from assur.storage import replace_file
 from assur.work import written
 
 
-def write_whole(path: str | Path, content: str | bytes) -> Path:
-    """Write a file so that it is there whole or, with an `OutputError`, what was there before still is."""
+def file_to_write(path: str | Path) -> Path:
+    """The path of a file that can be written as far as its place says, asked before what takes long.
+
+    Errors:
+        OutputError: it is a folder, a pipe or a device, or its folder does not exist.
+    """
     target = Path(path)
     if target.is_dir():
         raise OutputError(f"cannot write {target}: it is a folder", hint="give the name of a file")
@@ -21,6 +25,12 @@ def write_whole(path: str | Path, content: str | bytes) -> Path:
             f"cannot write {target}: the folder {target.parent} does not exist",
             hint=f"mkdir -p {target.parent}",
         )
+    return target
+
+
+def write_whole(path: str | Path, content: str | bytes) -> Path:
+    """Write a file so that it is there whole or, with an `OutputError`, what was there before still is."""
+    target = file_to_write(path)
     try:
         replace_file(target, content.encode() if isinstance(content, str) else content)
     except OSError as error:

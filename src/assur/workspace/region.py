@@ -102,19 +102,47 @@ class Workspace:
         return ParallelSingular(surfaces, self.near, self.share)
 
     def section(self, value: float, coordinate: str | None = None) -> RegionSection:
-        """The cut at a value of a pose coordinate, the last one where none is named."""
+        """The cut at a value of a pose coordinate, the last one where none is named.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> cut = region.section(200.0)
+        >>> (low,), (high,) = cut.polygons[0]
+        >>> cut.coordinate, round(float(cut.area - (high - low)), 9)
+        ('y', 0.0)
+        """
         return section(self.region, value, coordinate or self.box.names[-1], self.coarser)
 
     def projection(self, *plane: str) -> Projection:
-        """What the region covers on the plane of two pose coordinates, e.g. `projection("x", "z")` for XOZ."""
+        """What the region covers on the plane of two pose coordinates, e.g. `projection("x", "z")` for XOZ.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> abs(region.projection("x", "y").area - region.volume) < region.volume_error
+        True
+        """
         return projection(self.region, plane)
 
     def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
-        """Poses (N, m) of equal weight inside the region: what it holds of `count` points spread over the box."""
+        """Poses (N, m) of equal weight inside the region: what it holds of `count` points spread over the box.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> poses = region.interior(100, np.random.default_rng(0))
+        >>> bool(assur.load("fivebar").inverse(poses, region.mode).exists.all())
+        True
+        """
         return self.inside(count, rng)[0]
 
     def inside(self, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray | None]:
-        """Poses (N, m) as `interior`, and of a mode that was followed its joint values (N, n) there."""
+        """Poses (N, m) as `interior`, and of a mode that was followed its joint values (N, n) there.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> poses, joints = region.inside(100, np.random.default_rng(0))
+        >>> poses.shape[1], joints is None  # it has a closed form, which gives them
+        (2, True)
+        """
         points = self.box.spread(count, rng)
         inside = inside_at(self.margins, points)
         joints = None if self.how == CLOSED_FORM else self.joints(points)[inside]
@@ -124,6 +152,14 @@ class Workspace:
         """Joint values (N, n) of the mode at points (N, free coordinates); NaN where it was not followed to.
 
         Only of a mode that was followed; where there is a closed form, the inverse problem gives them.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> region.joints(region.interior(10, np.random.default_rng(0)))
+        Traceback (most recent call last):
+        ...
+        assur.errors.UsageError: fivebar has a closed form
+        hint: take the joint values of .inverse(poses, mode)
         """
         followed = next((item for item in self.margins.values() if isinstance(item, FollowedField)), None)
         if followed is None:
@@ -134,7 +170,13 @@ class Workspace:
         return np.where(found.reached[:, None], found.joints, np.nan)
 
     def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers, lists and None."""
+        """The result as plain numbers, lists and None.
+
+        >>> import assur
+        >>> region = assur.load("fivebar").workspace(resolution=16)
+        >>> region.to_json()["volume"] == region.volume
+        True
+        """
         key = self.box.names[-1]
         return {
             "volume": self.volume,

@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 
-from assur.errors import MechanismFileError
-from assur.model.file.key_path import KeyPath
+from assur.errors import KeyPath, MechanismFileError
 from assur.model.file.toml_source import read_toml
 
 DOCUMENT = r'''

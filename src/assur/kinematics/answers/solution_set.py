@@ -153,6 +153,12 @@ class SolutionSet(ABC):
 
         Errors:
             UsageError: pandas is not installed.
+
+        Its columns:
+
+        >>> import assur
+        >>> list(assur.load("fivebar").direct([1.0, 1.0]).rows()[0])
+        ['x', 'y', 'theta1', 'theta2', 'mode', 'status', 'gap']
         """
         try:
             pandas = import_module("pandas")

@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 from assur.kinematics import border
 from assur.kinematics.closed_form.blocks import Components, FloatArray, columns_of, each_block
-from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.closed_form.filling import Engine, Filler, chosen, run
 from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.modes import Problem, sign_axes, sign_names
-from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.status import branch_kernel, closed_form_of, exists
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats

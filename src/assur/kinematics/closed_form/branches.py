@@ -15,10 +15,19 @@ from assur.kinematics import border
 from assur.kinematics.answers.self_motion import SelfMotionCurve, has_self_motion, nearest_miss, self_motion_curves
 from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.closed_form.existence import allows, exists, vanishes
 from assur.kinematics.closed_form.mode_reading import ModeReading
 from assur.kinematics.modes import Problem, all_modes, mode_signs, mode_texts, sign_axes, sign_names
-from assur.kinematics.status import FACTOR_TOLERANCE, Status, branch_kernel, classify, closed_form_of, scale
+from assur.kinematics.status import (
+    FACTOR_TOLERANCE,
+    Status,
+    allows,
+    branch_kernel,
+    classify,
+    closed_form_of,
+    exists,
+    scale,
+    vanishes,
+)
 from assur.model.closed_form import Branch, Margin
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord

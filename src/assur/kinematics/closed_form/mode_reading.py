@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
-from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.modes import mode_kernel_signs
-from assur.kinematics.status import closed_form_of, relative_factors
+from assur.kinematics.status import closed_form_of, exists, relative_factors
 from assur.model.closed_form import Branch
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord

@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics import border
-from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.status import branch_kernel, closed_form_of, tolerance
 from assur.kinematics.turns import periodic_inputs
 from assur.model.closed_form import Branch, Margin
 from assur.model.kernel_dimensions import dimension_numbers, kernel_dimensions

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics import border
-from assur.kinematics.closed_form.existence import allows
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.rates.motions import general, motions
-from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.status import allows, branch_kernel, closed_form_of
 from assur.model.closed_form import Margin
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord

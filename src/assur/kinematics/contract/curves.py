@@ -12,7 +12,6 @@ from assur.kinematics import border
 from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.answers.self_motion import self_motion_curves
 from assur.kinematics.closed_form.branches import Branches
-from assur.kinematics.closed_form.existence import vanishes
 from assur.kinematics.closure import closure_error
 from assur.kinematics.contract.kernel import Kernel
 from assur.kinematics.contract.mismatch import Mismatch, place_text
@@ -20,7 +19,7 @@ from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.contract.undeclared import zeros
 from assur.kinematics.pose import pose_error
 from assur.kinematics.position import direct
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.status import closed_form_of, vanishes
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length, joint_scales
-from assur.kinematics.closed_form.existence import allows
 from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.kernel import Kernel, line_where
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.modes import Problem
-from assur.kinematics.status import closed_form_of, scale
+from assur.kinematics.status import allows, closed_form_of, scale
 from assur.model.closed_form import Margin
 from assur.model.pose import LENGTHS
 

@@ -172,7 +172,14 @@ class Path:
         return float(np.max(np.abs(np.where(angular, change, change / length))))
 
     def answer(self) -> PathAnswer:
-        """The path with angles of poses and inputs in the mechanism's angle unit, joint values in rad."""
+        """The path with angles of poses and inputs in the mechanism's angle unit, joint values in rad.
+
+        >>> import assur
+        >>> fivebar = assur.load("fivebar")
+        >>> start = next(iter(fivebar.inverse([0.0, 200.0], "-+")))
+        >>> fivebar.follow(start.joints, poses=[0.0, 210.0]).answer().stopped is None
+        True
+        """
         record, stop = self.record, self.stopped
         return PathAnswer(
             mechanism=record.name,

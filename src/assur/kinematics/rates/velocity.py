@@ -50,7 +50,13 @@ class VelocityMap:
 
     @classmethod
     def of(cls, record: MechanismRecord, instant: Instant) -> VelocityMap:
-        """The velocity map of a first-order motion on the joint graph."""
+        """The velocity map of a first-order motion on the joint graph.
+
+        >>> import assur
+        >>> fivebar = assur.load("fivebar")
+        >>> VelocityMap.of(fivebar, fivebar.instantaneous(fivebar.home_values)).matrix.shape
+        (2, 2)
+        """
         singular = (instant.singular_output, instant.singular_input)
         return cls(record, instant.jp, instant.jq, *singular, instant.closed, instant.no_rates)
 
@@ -70,7 +76,13 @@ class VelocityMap:
         return self._determinant(self.jq)
 
     def rows(self, rows: NDArray[Any]) -> VelocityMap:
-        """The same at some poses of a batch (N,)."""
+        """The same at some poses of a batch (N,).
+
+        >>> import assur
+        >>> velocities = assur.load("fivebar").velocity_map([[0.0, 200.0], [0.0, 224.0], [20.0, 224.0]])
+        >>> velocities.rows([0, 2]).det_jp.shape
+        (2,)
+        """
         parts = {name: getattr(self, name)[rows] for name in ARRAYS}
         return VelocityMap(self.record, **parts)
 
@@ -114,13 +126,25 @@ class VelocityMap:
         return np.where(self.singular_output | self.singular_input, np.inf, ratio)
 
     def output(self, input_rates: ArrayLike) -> FloatArray:
-        """Rates v (..., k) of the pose at input rates (..., n); NaN where `singular_output`."""
+        """Rates v (..., k) of the pose at input rates (..., n); NaN where `singular_output`.
+
+        >>> import assur
+        >>> velocities = assur.load("fivebar").velocity_map([0.0, 224.0])
+        >>> velocities.output(velocities.input([1.0, 2.0])).round(9).tolist()
+        [1.0, 2.0]
+        """
         rates = np.asarray(input_rates, dtype=float)
         product: FloatArray = (self.matrix @ rates[..., None])[..., 0]
         return product
 
     def input(self, output_rates: ArrayLike) -> FloatArray:
-        """Input rates (..., n) at pose rates v (..., k); NaN where `singular_input`."""
+        """Input rates (..., n) at pose rates v (..., k); NaN where `singular_input`.
+
+        >>> import assur
+        >>> velocities = assur.load("fivebar").velocity_map([0.0, 224.0])  # symmetric: upwards the cranks turn alike
+        >>> float(velocities.input([0.0, 1.0]).sum()).__round__(9) + 0.0
+        0.0
+        """
         rates = np.asarray(output_rates, dtype=float)
         return _solve(self.jq, self.jp @ rates[..., None], self.singular_input)[..., 0]
 

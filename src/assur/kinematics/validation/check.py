@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from assur.errors import MechanismFileError, Problem
+from assur.errors import KeyPath, MechanismFileError, Problem
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import quantity_text
@@ -20,7 +20,6 @@ from assur.kinematics.turns import periodic, unwrapped
 from assur.kinematics.validation.claims import Claims, axis_name, claims
 from assur.kinematics.validation.freedoms import freedom_problems, pose_problems
 from assur.kinematics.validation.gaps import gap_problems
-from assur.model.file.key_path import KeyPath
 from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle

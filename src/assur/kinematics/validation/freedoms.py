@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from assur.errors import Problem
+from assur.errors import KeyPath, Problem
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.architecture import self_motion_dimension
-from assur.kinematics.validation.axes import axes_hint
 from assur.kinematics.validation.claims import Claims
-from assur.model.file.key_path import KeyPath
+from assur.kinematics.validation.gaps import axes_hint
 from assur.model.file.place import problem, table_place
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, rate_names

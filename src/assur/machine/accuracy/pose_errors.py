@@ -57,7 +57,12 @@ class PoseErrors:
     clearances: Mapping[str, FloatArray]
 
     def compatible(self, name: str) -> bool:
-        """Whether an error of that name alone assembles."""
+        """Whether an error of that name alone assembles.
+
+        >>> import assur
+        >>> assur.load("fivebar").errors([0.0, 224.0]).compatible("l1")
+        True
+        """
         return name not in self.stresses
 
     @property

@@ -101,7 +101,15 @@ class MotionForces:
         return rms(self.times, self.forces)
 
     def utilisation(self, *, friction: bool = False) -> Utilisation:
-        """Shares of what each actuator can, with friction or without."""
+        """Shares of what each actuator can, with friction or without.
+
+        >>> import assur
+        >>> from assur.machine.dynamics.prescribed_motion import harmonic
+        >>> fivebar = assur.load("fivebar")
+        >>> answer = fivebar.dynamics(harmonic(fivebar, [0.0, 224.0], [10.0, 0.0], omega=6.28, count=9))
+        >>> bool((answer.utilisation(friction=True).force >= answer.utilisation().force).all())
+        True
+        """
         return utilisation(self.record, self.with_friction if friction else self.forces, self.rates)
 
     def __str__(self) -> str:

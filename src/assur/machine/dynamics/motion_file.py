@@ -15,13 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UsageError
+from assur.errors import KeyPath, UsageError
 from assur.kinematics.answers.at_border import coordinate_unit
 from assur.kinematics.border import LARGEST, drive_names
 from assur.machine.dynamics.prescribed_motion import LEAST, MOST, PrescribedMotion, harmonic, sampled
 from assur.machine.dynamics.release import MOMENTS, Release, constant_forces, forces_in_time
 from assur.model.file.faults import Faults, listed, nearest
-from assur.model.file.key_path import KeyPath
 from assur.model.file.toml_source import read_toml
 from assur.model.file.values import shown
 from assur.model.mechanism import MechanismRecord

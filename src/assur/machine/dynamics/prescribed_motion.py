@@ -50,6 +50,11 @@ class PrescribedMotion:
         """Pose (N, m), rates and accelerations (N, k) at times (N,), in the mechanism's unit, rad and s.
 
         Of a quaternion these are the angular velocity and acceleration in the base frame.
+
+        >>> import assur
+        >>> motion = harmonic(assur.load("fivebar"), [0.0, 224.0], [10.0, 0.0], omega=2.0)
+        >>> [values[0].round(9).tolist() for values in motion.at(np.array([0.0]))]
+        [[0.0, 224.0], [20.0, 0.0], [0.0, 0.0]]
         """
         pose, first, second = (self.coordinates(times, order) for order in range(3))
         if not has_quaternion(self.names):

@@ -100,20 +100,44 @@ class Stiffness:
         return self if self.rigid else stiffness_at(self.record, self.values, rigid=True)
 
     def strains(self, place: int = 0) -> Strains:
-        """The structure at one of the poses."""
+        """The structure at one of the poses.
+
+        >>> import assur
+        >>> answer = assur.load("zeng2019").stiffness([-15.4714, 9.6849, 456.3315])
+        >>> answer.strains().structure.record.name
+        'zeng2019'
+        """
         return strains(structure(self.record, shear=self.shear, rigid=self.rigid), self.values[place : place + 1])
 
     def shares(self, place: int = 0) -> EnergyShares:
-        """Where energy goes under unit forces along x, y and z, summed."""
+        """Where energy goes under unit forces along x, y and z, summed.
+
+        >>> import assur
+        >>> answer = assur.load("zeng2019").stiffness([-15.4714, 9.6849, 456.3315])
+        >>> round(sum(answer.shares().links.values()), 9)
+        1.0
+        """
         state = self.strains(place)
         return energy_shares(state, state.displaced(np.swapaxes(state.platform[:1, :3], -1, -2))[0])
 
     def vibrations(self, place: int = 0) -> Vibrations:
-        """The slowest natural vibrations at one of the poses."""
+        """The slowest natural vibrations at one of the poses.
+
+        >>> import assur
+        >>> answer = assur.load("zeng2019").stiffness([-15.4714, 9.6849, 456.3315])
+        >>> bool((answer.vibrations().frequencies > 0.0).all())
+        True
+        """
         return vibrations(self.strains(place))
 
     def mode_shapes(self, place: int = 0) -> tuple[ModeShape, ...]:
-        """How the structure moves in each of these; none where the file lacks a mass."""
+        """How the structure moves in each of these; none where the file lacks a mass.
+
+        >>> import assur
+        >>> answer = assur.load("zeng2019").stiffness([-15.4714, 9.6849, 456.3315])
+        >>> bool(abs(answer.mode_shapes()[0].frequency / answer.vibrations().frequencies[0] - 1.0) < 1e-9)
+        True
+        """
         return mode_shapes(self.vibrations(place))
 
     def __str__(self) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.build_chains import build_chains, build_generalised
 from assur.model.file.build_inputs import build_home, build_inputs
@@ -15,7 +16,6 @@ from assur.model.file.build_machine import MACHINE_TABLES, build_machine
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.graph_checks import check_graph
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import expand, repeated
 from assur.model.file.names import check_names
 from assur.model.file.numbers import Numbers

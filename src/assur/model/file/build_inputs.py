@@ -7,11 +7,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import KeyPath
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
 from assur.model.file.build_joints import JointVectors
 from assur.model.file.faults import listed
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import Numbers
 from assur.model.file.scope import Scope

@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import KeyPath
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Placed
 from assur.model.file.numbers import KindError, Numbers, Triple, kind_of
 from assur.model.file.scope import Scope

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.build_joints import JointVectors
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
 from assur.model.file.scope import Scope

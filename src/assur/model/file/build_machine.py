@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import KeyPath
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
 from assur.model.file.build_joints import JointVectors
 from assur.model.file.build_profiles import build_materials, build_profiles, check_positive
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Placed, Tables
 from assur.model.file.scope import Scope
 from assur.model.machine_data import Actuator, Gravity, LinkData, MachineData, Profile, Tolerance

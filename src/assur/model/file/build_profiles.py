@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.build_joints import JointVectors
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.machine_data import Material, Profile
 
 Kind = Literal["round", "tube", "box"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from assur.errors import KeyPath
 from assur.model.file.faults import Faults, listed
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
 from assur.model.mechanism import LimbRecord, MechanismRecord
 

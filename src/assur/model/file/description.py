@@ -8,9 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from assur.errors import MechanismFileError, Problem
+from assur.errors import KeyPath, MechanismFileError, Problem
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.results.reading import file_text
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ import difflib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from assur.errors import MechanismFileError, Problem, cut
-from assur.model.file.key_path import KeyPath, path_text
+from assur.errors import KeyPath, MechanismFileError, Problem, cut, path_text
 
 if TYPE_CHECKING:
     from assur.model.file.toml_source import TomlSource

@@ -10,9 +10,9 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.faults import Faults, listed, nearest
-from assur.model.file.key_path import KeyPath
 from assur.model.file.values import shown
 
 _TABLES: dict[str, type[schema.Entry]] = {

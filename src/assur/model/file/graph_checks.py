@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from assur.errors import KeyPath
 from assur.model.file.chain_checks import check_chains, is_first
 from assur.model.file.faults import Faults, listed
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics.rotations import FloatArray

@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.formula import Formula
 
 Item = TypeVar("Item")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from assur.errors import KeyPath
 from assur.model.file import schema
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 
 Use = tuple[str, str, KeyPath]

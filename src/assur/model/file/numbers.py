@@ -14,9 +14,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import KeyPath
 from assur.model import syntax as s
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.formula import Formula
 
 FloatArray = NDArray[np.float64]

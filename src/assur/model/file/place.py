@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from assur.errors import Problem, cut
-from assur.model.file.key_path import KeyPath, path_text
+from assur.errors import KeyPath, Problem, cut, path_text
 from assur.model.mechanism import Coordinate, MechanismRecord
 
 if TYPE_CHECKING:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
+from assur.errors import KeyPath
 from assur.joints.catalogue import JOINT_TYPES
 from assur.joints.joint_type import JointType
 from assur.model.file.faults import Faults
-from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
 from assur.model.file.numbers import Kind
 from assur.model.formula import Formula

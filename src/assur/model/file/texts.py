@@ -6,8 +6,7 @@ import unicodedata
 from collections.abc import Iterator
 from typing import Any
 
-from assur.errors import hidden
-from assur.model.file.key_path import KeyPath
+from assur.errors import KeyPath, hidden
 
 MAX_NAME = 100
 """Characters of a name at most."""

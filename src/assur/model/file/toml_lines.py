@@ -6,7 +6,7 @@ import re
 import tomllib
 from collections.abc import Callable
 
-from assur.model.file.key_path import KeyPath
+from assur.errors import KeyPath
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _STRING = re.compile(

@@ -8,8 +8,7 @@ import tomllib
 from dataclasses import dataclass
 from typing import Any
 
-from assur.errors import MechanismFileError, Problem
-from assur.model.file.key_path import KeyPath, path_text
+from assur.errors import KeyPath, MechanismFileError, Problem, path_text
 from assur.model.file.texts import text_faults
 from assur.model.file.toml_lines import Lines
 

@@ -8,11 +8,10 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from assur.errors import UsageError
+from assur.errors import KeyPath, UsageError
 from assur.joints.catalogue import BY_LETTER
 from assur.model.file.description import description_text
 from assur.model.file.faults import Faults, listed, nearest
-from assur.model.file.key_path import KeyPath
 from assur.model.file.kind import is_mechanism
 from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from assur.kinematics.closed_form.existence import allows, exists, tolerance, vanishes
+from assur.kinematics.status import allows, exists, tolerance, vanishes
 from assur.model.closed_form import Margin
 from assur.model.registry import load_record
 
