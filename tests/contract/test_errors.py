@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import assemble
-from assur.kinematics.pose import platform_frame
 from assur.machine.accuracy.elastic_errors import elastic_errors
 from assur.machine.accuracy.geometry_errors import geometry_errors
 from assur.machine.accuracy.pose_errors import pose_errors_at
-from assur.model.dimensions import with_parameters
-from assur.numerics import rotations
 from bending import bending
+from copies_off import moved
+from own_machines import every_mechanism
 from weighed import place
+
+mechanism = every_mechanism()
 
 
 @pytest.fixture
@@ -20,17 +20,25 @@ def errors(mechanism):
     return pose_errors_at(mechanism, place(mechanism)[0])
 
 
-def test_dimensions_that_are_off_move_the_platform_as_poses_solved_again_say(mechanism, errors):
-    """All that assemble at once, each by another share."""
-    values, length = errors.values, characteristic_length(mechanism)
-    names = [name for name in mechanism.parameters if name in errors.sensitivity and errors.compatible(name)]
-    shares = np.random.default_rng(3).uniform(0.2, 1.0, size=len(names))
-    step = 1e-5 * length
-    once, twice = (_moved(mechanism, values, dict(zip(names, count * step * shares, strict=True))) for count in (1, 2))
-    moved = (4.0 * once - twice) / (2.0 * step)  # of a parabola through both and none
-    expected = sum(share * errors.sensitivity[name] for name, share in zip(names, shares, strict=True))
-    size = np.repeat([1.0, 1.0 / length], 3)
-    np.testing.assert_allclose(moved / size, expected / size, atol=1e-5 * (1.0 + np.abs(expected / size).max()))
+def test_copies_that_are_off_move_the_platform_as_poses_solved_again_say(mechanism, errors):
+    """Of whole dimensions, of one limb's, of one link's, and inputs, one by one; what does not assemble stays open."""
+    names, inputs = list(errors.sensitivity), [item.name for item in mechanism.drives]
+    length = characteristic_length(mechanism)
+    of_lengths = np.array([errors.units[name] == mechanism.unit for name in names])
+    steps = 1e-5 * np.where(of_lengths, length, 1.0)
+    (above, left), (below, _) = (
+        moved(mechanism, errors.values, *(_each(names, sense * steps, own, inputs) for own in (False, True)))
+        for sense in (1.0, -1.0)
+    )
+    degrees = np.array([np.radians(1.0) if errors.units[name] == "deg" else 1.0 for name in names])
+    again = (above - below) * (degrees / (2.0 * steps))[:, None]
+    stated, size = np.array(list(errors.sensitivity.values())), np.repeat([1.0, 1.0 / length], 3)
+    fits = np.array([errors.compatible(name) for name in names])
+    np.testing.assert_allclose(
+        (again / size)[fits], (stated / size)[fits], atol=1e-7 * np.abs(stated / size)[fits].max()
+    )
+    assert np.all(left[fits] < 1e-7 * steps[fits])
+    assert np.all(left[~fits] > 1e-7 * steps[~fits])
 
 
 def test_what_assembles_moves_it_the_same_whether_links_bend_or_not(mechanism, errors):
@@ -45,25 +53,7 @@ def test_what_assembles_moves_it_the_same_whether_links_bend_or_not(mechanism, e
     assert all(errors.compatible(item.name) for item in mechanism.inputs)
 
 
-def _with(record, changes):
-    """The record with other dimensions, and all that is computed from others as it was."""
-    kept = {name: item.value for name, item in record.parameters.items()}
-    return with_parameters(
-        record.without_closed_form, **kept | {name: kept[name] + step for name, step in changes.items()}
-    )
-
-
-def _held(record, values):
-    """Joint values (n,) near `values` that close the loops, the inputs as they are."""
-    fixed = [item.coordinate.index for item in record.drives]
-    assembled = assemble(record, values[None], near=True, held=fixed)
-    assert assembled.closed.all()
-    return assembled.values[0]
-
-
-def _moved(record, values, changes):
-    """Displacement and rotation vector (6,) of the platform with other dimensions, the inputs as they are."""
-    other = _with(record, changes)
-    (turn, at), (second_turn, second_at) = (platform_frame(own, places) for own, places in (
-        (record, values[None]), (other, _held(other, values)[None])))  # fmt: skip
-    return np.concatenate([second_at[0] - at[0], rotations.to_vector(second_turn[0] @ turn[0].T)])
+def _each(names, steps, driven, inputs):
+    """Copy, or input where `driven`, -> what it is off by (P,) where each of all is so alone."""
+    rows = steps * np.eye(len(names))
+    return {name: row for name, row in zip(names, rows, strict=True) if (name in inputs) == driven}

@@ -1,5 +1,7 @@
 """Laws of stiffness, for every mechanism with beams of random profiles; none knows a printed number."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,8 +11,15 @@ from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.reactions import reactions
-from bending import bending, by_multipliers
+from assur.model.machine_data import LinkData
+from bending import bending, by_limbs, by_multipliers, serial_limbs
+from own_machines import every_mechanism
 from weighed import motion_of, place
+
+mechanism = every_mechanism()
+LOOPED = ("delta_4s", "h4_robot", "linear_delta_4r", "linear_delta_4s", "orthoglide", "three_p2us", "three_rrrp4r",
+          "tsai_platform", "zeng2019", "parallelograms")  # fmt: skip
+"""Links of these limbs are held in loops of their own."""
 
 
 @pytest.fixture
@@ -27,6 +36,21 @@ def test_compliance_is_symmetric_positive_and_that_of_the_other_route(bent):
     size = np.abs(other / units / units[:, None]).max()
     np.testing.assert_allclose(compliance / units / units[:, None], other / units / units[:, None], atol=1e-8 * size)
     assert np.linalg.eigvalsh(compliance / units / units[:, None])[0] >= -1e-12 * size
+
+
+def test_limbs_one_by_one_add_to_the_whole(mechanism):
+    """Virtual joints: the compliance of each serial limb at the platform, on forces that its passive joints pass on."""
+    record = bending(mechanism)
+    rigid = replace(record.machine, links={**record.machine.links, record.platform.link: LinkData(mass=1.0)})
+    record = replace(record, machine=rigid)
+    values, limbs = place(mechanism), serial_limbs(mechanism)
+    assert bool(limbs) != (mechanism.name in LOOPED)
+    if limbs:
+        own = stiffness_at(record, values)
+        units = np.repeat([own.length, 1.0], 3)
+        other = by_limbs(record, values, limbs) / units / units[:, None]
+        compliance = own.compliance[0] / units / units[:, None]
+        np.testing.assert_allclose(compliance, other, atol=1e-9 * np.abs(other).max())
 
 
 def test_work_of_loads_is_energy_of_strains_and_shares_are_whole(bent):

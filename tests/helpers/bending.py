@@ -8,10 +8,12 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from assur.joint_graph.frames import frames, screws
 from assur.kinematics.pose import platform_frame
 from assur.kinematics.validation.check import METRES
+from assur.machine.elasticity.strains import strains
 from assur.machine.elasticity.structure import structure
 from assur.machine.masses.bars import joint_points
 from assur.machine.motion.screws import rate_units
@@ -106,6 +108,67 @@ def textbook(profile, material, length, shear):
             bend / length**3 / (1 + phi) * matrix
         )
     return whole
+
+
+def serial_limbs(record):
+    """The links of each limb; none where a limb has loops or branches."""
+    held = {record.base, record.platform.link}
+    limbs = []
+    for start in record.joints.values():
+        if start.parent == record.base and start.child not in held:
+            limbs.append({start.child})
+            for _ in record.links:
+                for joint in record.joints.values():
+                    if {joint.parent, joint.child} & limbs[-1]:
+                        limbs[-1] |= {joint.parent, joint.child} - held
+    ends = [link for joint in record.joints.values() for link in (joint.parent, joint.child)]
+    inner = [link for limb in limbs for link in limb]
+    alone = len(set(inner)) == len(inner) == len(record.links) - 2
+    return limbs if alone and {ends.count(link) for link in inner} == {2} else []
+
+
+def by_limbs(record, values, limbs):
+    """Compliance (6, 6) at the platform's point, displacement before rotation, by virtual joints of serial limbs."""
+    units = np.repeat([strains(structure(record), values).length, 1.0], 3)
+    passed, forms = [], []
+    for links in limbs:
+        compliance, passive = _limb(record, values, links)
+        left, sizes, _ = np.linalg.svd(passive / units[:, None])
+        passed.append(left[:, np.sum(sizes > 1e-9 * sizes[0]) :])  # wrenches that do no work in passive joints
+        forms.append(passed[-1].T @ (compliance / units / units[:, None]) @ passed[-1])
+    whole = np.concatenate(passed, axis=1)
+    size = max(form.max() for form in forms)
+    saddle = np.block([[block_diag(*forms) / size, -whole.T], [whole, np.zeros((6, 6))]])
+    loads = np.concatenate([np.zeros((len(saddle) - 6, 6)), np.eye(6)])
+    return size * np.linalg.lstsq(saddle, loads, rcond=1e-14)[0][-6:] * units * units[:, None]
+
+
+def _limb(record, values, links):
+    """Compliance (6, 6) of a serial limb at the platform's point, and how its passive joints move it (6, p)."""
+    own = structure(record)
+    state = strains(own, values)
+    point = state.point[0]
+    moves = screws(record, values)[0]
+    moves[3:] *= METRES[record.unit]
+    moves /= rate_units(record)
+    moves = np.concatenate([moves[3:] + np.cross(moves[:3], point, axis=0), moves[:3]])
+    compliance, passive = np.zeros((6, 6)), np.zeros((6, 0))
+    for item in record.coordinates:
+        joint = record.joints[item.joint]
+        if {joint.parent, joint.child} & links:
+            move = moves[:, [item.index]]
+            if own.stiffness[item.index]:
+                compliance += move @ move.T / own.stiffness[item.index]
+            else:
+                passive = np.concatenate([passive, move], axis=1)
+    for number, beam in enumerate(own.beams):
+        if beam.link in links:
+            turn, lever = state.beam_axes[0, number], point - state.beam_ends[0, number]
+            carried = np.zeros((6, 6))  # displacement and rotation at the platform per strain
+            carried[3:, :3], carried[:3, 3:] = turn, turn
+            carried[:3, :3] = np.cross(turn, lever, axis=0)
+            compliance += carried @ beam.beam.parts.sum(axis=0) @ carried.T
+    return compliance, passive
 
 
 def _apart(points):

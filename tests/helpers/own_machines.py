@@ -4,6 +4,8 @@ from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
+import pytest
+
 import assur
 from assur.cli.main import main
 from screw_mechanisms import FIVEBAR, loaded
@@ -18,6 +20,12 @@ DRAFTS = {
 }
 """Ball joints and a quaternion; more drives than freedoms; a loop in a limb, a cylindrical joint; an angle alone."""
 OWN = ("screws", "par4", *DRAFTS)
+ELASTIC = {
+    "parallelograms": ["--chain", HYBRID[0], "--chain", "R[y] P(4R)[x] R[y] R[y]"],
+    "six_rus": ["6-RUS"],
+    "three_rrrp": ["--limb", "R[z] R[z] R[z] P[z]", "--count", "3"],
+}
+"""A hybrid with a parallelogram, rods that spin between balls, and limbs that hold the platform twice."""
 
 
 @lru_cache
@@ -28,5 +36,15 @@ def own_machine(name):
     if name == "par4":
         return assur.load(PAR4)
     path = Path(mkdtemp()) / f"{name}.toml"
-    assert main(["new", str(path), *DRAFTS[name]]) == 0
+    assert main(["new", str(path), *{**DRAFTS, **ELASTIC}[name]]) == 0
     return assur.load(path)
+
+
+def every_mechanism():
+    """A fixture of all built-in mechanisms, and of drafts that are elastic in ways of their own."""
+
+    @pytest.fixture(params=[*assur.names(), *(pytest.param(name, marks=pytest.mark.deep) for name in ELASTIC)])
+    def mechanism(request):
+        return own_machine(request.param) if request.param in ELASTIC else assur.load(request.param)
+
+    return mechanism

@@ -64,11 +64,21 @@ def test_base_parameters_are_what_is_told_in_truth(zeng):
         np.testing.assert_allclose(told @ parts, zeng.matrix[:, place], atol=1e-7)
 
 
-def test_a_dimension_that_alone_does_not_assemble_is_none_of_the_parameters():
-    record = assur.load("three_crr")
+def test_a_dimension_that_alone_does_not_assemble_is_none_of_the_parameters(tmp_path):
+    """All axes of a limb slope alike, and then it assembles; where one has a slope of its own it does not."""
+    written = assur.load("three_crr")
+    assert identification(written, random_poses(written, 2)).strained == ()
+    text = written.file.read_text(encoding="utf-8")
+    first, second = 'parent = "crank",', 'axis = [1, 0, "rise"]'
+    before, after = text.split(first)
+    text = f"{before}{first}{after.replace(second, second.replace('rise', 'slope'), 1)}"
+    rise = next(line for line in text.splitlines() if line.startswith("rise ="))
+    path = tmp_path / "sloping.toml"
+    path.write_text(text.replace(rise, f"{rise}\n{rise.replace('rise =', 'slope =')}"), encoding="utf-8")
+    record = assur.load(path)
     own = identification(record, random_poses(record, 2))
-    assert own.strained == ("rise",)
-    assert "rise" not in own.parameters
+    assert own.strained == ("rise", "slope")
+    assert not {"rise", "slope"} & set(own.parameters)
 
 
 def test_heights_over_a_plate_do_not_tell_a_deltas_arms_where_the_gauge_begins_anywhere():

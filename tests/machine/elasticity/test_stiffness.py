@@ -7,17 +7,11 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.joint_graph.frames import screws
-from assur.kinematics.pose import platform_frame
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.elasticity.strains import strains
 from assur.machine.elasticity.structure import structure
-from assur.machine.motion.screws import rate_units
-from assur.model.machine_data import Actuator, LinkData
-from bending import bending
-from weighed import place
+from assur.model.machine_data import Actuator
 
 POSE = [-15.4714, 9.6849, 456.3315]
 PORTAL = """
@@ -113,51 +107,6 @@ def test_a_portal_with_clamped_corners_sways_as_frames_do(tmp_path):
     sway = (state.platform @ state.displaced(np.swapaxes(state.platform, -1, -2)))[0, 0, 0]
     ratio, bend = 0.3 / 0.4, 210e9 * profile.iz
     assert sway == pytest.approx(0.3**3 * (3 * ratio + 2) / (12 * bend * (6 * ratio + 1)), rel=1e-6)
-
-
-@pytest.mark.parametrize("name", ["planar_3rrr", "three_crr", "tripteron", "three_rrc"])
-def test_legs_one_by_one_give_the_same(name):
-    """Virtual joints: each serial leg's compliance at the platform, its passive joints bordering it."""
-    record = bending(assur.load(name))
-    rigid = {record.platform.link: LinkData(mass=1.0)}
-    record = replace(record, machine=replace(record.machine, links={**record.machine.links, **rigid}))
-    values = place(assur.load(name))
-    whole = sum(_leg_stiffness(record, values, leg) for leg in ("leg1", "leg2", "leg3"))
-    own = stiffness_at(record, values).compliance[0]
-    units = np.repeat([0.1, 1.0], 3)
-    np.testing.assert_allclose(whole @ own / units * units[:, None], np.eye(6), atol=1e-9)
-
-
-def _leg_stiffness(record, values, leg):
-    own = structure(record)
-    state = strains(own, values)
-    metre = METRES[record.unit]
-    point = metre * platform_frame(record, values)[1][0]
-    moves = screws(record, values)[0]
-    moves[3:] *= metre
-    moves /= rate_units(record)
-    moves = np.concatenate([moves[3:] + np.cross(moves[:3], point, axis=0), moves[:3]])
-    compliance = np.zeros((6, 6))
-    passive = []
-    for item in record.coordinates:
-        if item.joint.startswith(leg):
-            move = moves[:, item.index]
-            if own.stiffness[item.index]:
-                compliance += np.outer(move, move) / own.stiffness[item.index]
-            else:
-                passive.append(move)
-    for place_, beam in enumerate(own.beams):
-        if beam.link.startswith(leg):
-            turn, lever = state.beam_axes[0, place_], point - state.beam_ends[0, place_]
-            parts = beam.beam.parts.sum(axis=0)
-            carried = np.zeros((6, 6))  # displacement and rotation at the platform per strain
-            carried[3:, :3], carried[:3, 3:] = turn, turn
-            carried[:3, :3] = np.cross(turn, lever, axis=0)
-            compliance += carried @ parts @ carried.T
-    passive = np.array(passive).T
-    bordered = np.block([[compliance, passive], [passive.T, np.zeros((passive.shape[1],) * 2)]])
-    scale = np.concatenate([np.sqrt(np.diag(compliance)), np.ones(passive.shape[1])])
-    return (np.linalg.inv(bordered / scale / scale[:, None]) / scale / scale[:, None])[:6, :6]
 
 
 def test_singular_and_unreachable_poses_have_no_numbers():

@@ -168,7 +168,8 @@ def _of_point(record: MechanismRecord) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _size(record: MechanismRecord, parameter: str) -> float:
-    return 1.0 if record.parameters[parameter].angular else characteristic_length(record)
+    """What moves joints about as far as they are apart: shares and angles are of size 1."""
+    return characteristic_length(record) if record.parameters[parameter].unit == record.unit else 1.0
 
 
 def _inside_unit(record: MechanismRecord, parameter: str) -> float:

@@ -177,12 +177,12 @@ def slopes_at(
     names = tuple(name for name in errors.sensitivity if "." not in name or name in inputs)
     turn, point = (part[0] for part in platform_frame(record, joints[None]))
     moved = np.array([errors.sensitivity[name] for name in names]).T
-    angles = [errors.units[name] in ("rad", "deg") for name in names]
+    plain = [errors.units[name] != record.unit for name in names]  # angles, and shares
     if frame:
         names = (*names, *FRAME)
         moved = np.concatenate([moved, of_frame(point - at[1])], axis=1)
-        angles += [name.removeprefix("frame.") in TURNS for name in FRAME]
-    return names, measured.slopes((turn, point), at) @ moved, np.where(angles, 1.0 / measured.length, 1.0)
+        plain += [name.removeprefix("frame.") in TURNS for name in FRAME]
+    return names, measured.slopes((turn, point), at) @ moved, np.where(plain, 1.0 / measured.length, 1.0)
 
 
 def matrix_rank(sizes: FloatArray) -> int:
