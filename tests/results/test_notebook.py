@@ -8,6 +8,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.results.notebook import cells as table_cells
 from assur.results.notebook import html_table, text_table
 
 
@@ -59,6 +60,50 @@ def test_a_notebook_shows_a_topology_with_its_graph():
     shown = assur.topology("fivebar")._repr_html_()
     assert sorted(row[0].split()[0] for row in cells(shown)) >= ["freedoms", "coupling"] or len(cells(shown)) > 5
     assert "data:image/png;base64,iVBOR" in shown
+
+
+def test_solutions_print_as_the_table_that_a_notebook_shows(fivebar):
+    solutions = fivebar.direct(np.radians([60.0, 60.0]))
+    head, *rows = str(solutions).splitlines()[1:]
+    assert head.split() == cells(solutions._repr_html_())[0]
+    assert len(rows) == len(solutions) == 2
+    assert [row.split()[4] for row in rows] == [solution.mode for solution in solutions]
+    assert solutions[1].mode == list(solutions)[1].mode
+    assert str(fivebar.direct(np.ones((2, 2)))) == repr(fivebar.direct(np.ones((2, 2))))
+
+
+POSE = [20.0, 224.0]
+ANSWERS = {
+    "velocities": (lambda own: own.velocity_map([POSE, POSE]), 2, lambda answer: answer.matrix[0, 0, 0]),
+    "indices": (lambda own: own.indices(POSE), 1, lambda answer: answer["condition"]),
+    "verdict": (lambda own: own.singularity(POSE), 4, lambda answer: answer.det_jp),
+    "aspects": (lambda own: own.aspects("-+"), 1, lambda answer: answer.aspects[0].volume[0]),
+    "workspace": (lambda own: own.workspace(resolution=8), 3, lambda answer: answer.volume),
+    "errors": (lambda own: own.errors(POSE), 3, lambda answer: answer.sensitivity["g"][0]),
+    "forces": (lambda own: own.forces([POSE], load=[0.0, 1.0, 0.0]), 1, lambda answer: answer.forces[0, 0]),
+}
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_an_answer_is_a_table_printed_in_a_notebook_and_as_a_data_frame(fivebar, monkeypatch, name):
+    make, least, first = ANSWERS[name]
+    answer = make(fivebar)
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows: rows))
+    rows = answer.to_dataframe()
+    head, *shown = cells(answer._repr_html_())
+    assert head == list(rows[0])
+    assert len(shown) == len(rows) >= least
+    numbers = [value for value in rows[0].values() if isinstance(value, float)]
+    assert numbers[0] == pytest.approx(float(first(answer)))
+    assert len(str(answer).splitlines()) > len(rows) or "per unit" in str(answer)
+    assert "array(" not in str(answer)
+
+
+def test_of_a_long_table_the_first_rows_are_shown_and_how_many_more_there_are():
+    columns, rows = table_cells([{"t": float(k), "x": 0.0} for k in range(30)])
+    assert columns == ("t", "x")
+    assert rows[23] == ["23", "0"]
+    assert rows[24:] == [["and 6 more", ""]]
 
 
 def test_a_data_frame_is_made_of_the_rows_where_pandas_is(fivebar, monkeypatch):

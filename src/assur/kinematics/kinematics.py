@@ -146,8 +146,8 @@ class Kinematics(MechanismRecord):
     def instantaneous(self, joint_values: Named) -> Instant:
         """First-order motion at joint values (..., c) or by name: ranks, freedoms and the six types of singularity.
 
-        A configuration that is none says so by `closed` and `gap` (in characteristic lengths); see
-        `assur.kinematics.rates.instantaneous`.
+        Where joint values do not close the loops `closed` is false and matrices are NaN. `gap` says how clear
+        ranks are: a singular value kept over the largest dropped. See `assur.kinematics.rates.instantaneous`.
 
         >>> import assur
         >>> fivebar = assur.load("fivebar")

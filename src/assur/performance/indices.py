@@ -33,13 +33,14 @@ from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.performance.scaling import Length, chosen_length
 from assur.performance.transmission import Transmission, transmission_at
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 BLOCK = 2**13
 
 
 @dataclass(frozen=True, eq=False)
-class Indices:
+class Indices(Tabulated):
     """Indices at poses or configurations (...).
 
     Attributes:
@@ -72,6 +73,15 @@ class Indices:
     def __getitem__(self, name: str) -> FloatArray:
         """One index (...) by its name in `INDICES`."""
         return index_named(name).of(self)
+
+    def _title(self) -> str:
+        return f"indices of {self.record.name}"
+
+    def _entries(self) -> Entries:
+        columns = {name: self[name].ravel().tolist() for name in INDICES}
+        status = [Status(code).name for code in self.status.ravel().tolist()]
+        rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        return [row | {"status": name} for row, name in zip(rows, status, strict=True)]
 
     @property
     def condition_number(self) -> FloatArray:

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from html import escape
+from importlib import import_module
+from typing import Any
+
+from assur.errors import UsageError
 
 Rows = Sequence[Sequence[object]]
 """Of a table; each cell is shown as `str` gives it."""
@@ -36,3 +41,63 @@ def text_table(title: str, columns: Sequence[str], rows: Rows) -> str:
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
     return "\n".join([title, *(line.rstrip() for line in lines)])
+
+
+Entries = Sequence[Mapping[str, object]]
+"""Of a table, row by row: each cell by the name of its column, the same names in every row."""
+SHOWN = 24
+"""So many rows are shown; a data frame has all of them."""
+
+
+def cells(entries: Entries) -> tuple[tuple[str, ...], list[list[object]]]:
+    """Columns and rows as they are shown: numbers to six digits, and how many rows are not shown.
+
+    >>> cells([{"x": 1 / 3, "mode": "+"}])
+    (('x', 'mode'), [['0.333333', '+']])
+    """
+    columns = tuple(entries[0]) if entries else ()
+    rows: list[list[object]] = [
+        [f"{cell + 0.0:.6g}" if isinstance(cell, float) else cell for cell in row.values()] for row in entries
+    ]
+    if len(rows) > SHOWN:
+        rows[SHOWN:] = [[f"and {len(rows) - SHOWN} more", *[""] * (len(columns) - 1)]]
+    return columns, rows
+
+
+def data_frame(entries: Entries) -> Any:
+    """All rows as a `pandas.DataFrame`.
+
+    Errors:
+        UsageError: pandas is not installed.
+    """
+    try:
+        pandas = import_module("pandas")
+    except ImportError:
+        raise UsageError("a data frame needs pandas, which is not installed", hint="pip install pandas") from None
+    return pandas.DataFrame(list(entries))
+
+
+class Tabulated(ABC):
+    """An answer that is read as a table: printed, in a notebook, as a data frame."""
+
+    @abstractmethod
+    def _title(self) -> str:
+        """What the table is of."""
+
+    @abstractmethod
+    def _entries(self) -> Entries:
+        """Its rows."""
+
+    def __str__(self) -> str:
+        return text_table(self._title(), *cells(self._entries()))
+
+    def _repr_html_(self) -> str:
+        return html_table(self._title(), *cells(self._entries()))
+
+    def to_dataframe(self) -> Any:
+        """The table as a `pandas.DataFrame`, one row for each pose, moment or name.
+
+        Errors:
+            UsageError: pandas is not installed.
+        """
+        return data_frame(self._entries())

@@ -20,13 +20,14 @@ from assur.kinematics.rates.motions import general
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map
 from assur.kinematics.status import Status, closed_form_of, relative_factors
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Tabulated):
     """What a configuration is.
 
     Attributes:
@@ -69,6 +70,16 @@ class Verdict:
     home: bool | None = None
     home_by: str = ""
     known_modes: tuple[str, ...] = ()
+
+    def _title(self) -> str:
+        return f"{self.kind}, near a singularity" if self.near else self.kind
+
+    def _entries(self) -> Entries:
+        numbers = {"det Jp": self.det_jp, "det Jq": self.det_jq, "condition": self.condition, "freedoms": self.freedoms}
+        return [
+            {"what": name, "value": value, "share of its scale": self.relative.get(name, "")}
+            for name, value in [*numbers.items(), *self.factors.items()]
+        ]
 
 
 @stage("verdict on the pose")

@@ -22,6 +22,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.results.answers.region import ParallelSingular, SingularSurface
 from assur.results.json_text import plain
+from assur.results.notebook import Entries, Tabulated
 from assur.singularity.loci import Locus, parallel_loci
 from assur.work import Progress
 from assur.workspace.bounds import Stroke
@@ -48,7 +49,7 @@ NEAR = 0.035
 
 
 @dataclass(frozen=True, eq=False)
-class Workspace:
+class Workspace(Tabulated):
     """The workspace of one working mode.
 
     Attributes:
@@ -85,6 +86,16 @@ class Workspace:
     coarser: Reach = field(repr=False)
     strokes: Mapping[str, Stroke | None] | None = None
     how: str = CLOSED_FORM
+
+    def _title(self) -> str:
+        return f"workspace of {self.mechanism}, mode {self.mode}, by {self.how}"
+
+    def _entries(self) -> Entries:
+        bounds = zip(self.box.names, self.box.low, self.box.high, strict=True)
+        rows: list[tuple[str, object, object, str]] = [("size", self.volume, self.volume_error, self.unit)]
+        rows += [(f"{name} of the box", f"{low:g} to {high:g}", "", "") for name, low, high in bounds]
+        rows += [(f"cut at {cut.coordinate} = {cut.value:g}", cut.area, cut.area_error, "") for cut in self.sections]
+        return [dict(zip(("what", "value", "error", "unit"), row, strict=True)) for row in rows]
 
     @property
     def parallel_singular(self) -> ParallelSingular:

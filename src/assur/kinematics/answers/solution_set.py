@@ -5,13 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import BatchError, UsageError
+from assur.errors import BatchError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.answers.excess import beyond, excesses, open_loop, within
@@ -160,22 +159,30 @@ class SolutionSet(ABC):
         >>> list(assur.load("fivebar").direct([1.0, 1.0]).rows()[0])
         ['x', 'y', 'theta1', 'theta2', 'mode', 'status', 'gap']
         """
-        try:
-            pandas = import_module("pandas")
-        except ImportError:
-            raise UsageError("a data frame needs pandas, which is not installed", hint="pip install pandas") from None
-        return pandas.DataFrame(self.rows())
+        from assur.results.notebook import data_frame
+
+        return data_frame(self.rows())
+
+    def __str__(self) -> str:
+        """The solutions as a table; of a batch its size."""
+        from assur.results.notebook import cells, text_table
+
+        return repr(self) if self.batch_shape else text_table(self._title(), *cells(self.rows()))
 
     def _repr_html_(self) -> str:
-        """For a notebook: the solutions as a table; of a batch its size."""
-        from assur.results.notebook import html_table
+        """The same for a notebook."""
+        from assur.results.notebook import cells, html_table
 
         if self.batch_shape:
             return html_table(repr(self), (), ())
-        rows = self.rows()
-        shown = [[f"{cell:.6g}" if isinstance(cell, float) else cell for cell in row.values()] for row in rows]
-        title = f"{len(rows)} {self.problem} solutions of {self.record.name}: {self.right}"
-        return html_table(title, list(rows[0]) if rows else (), shown)
+        return html_table(self._title(), *cells(self.rows()))
+
+    def _title(self) -> str:
+        return f"{len(self)} {self.problem} solutions of {self.record.name}: {self.right}"
+
+    def __getitem__(self, place: int) -> Solution:
+        """One of the listed solutions of a batch of one, counted from 0."""
+        return list(self)[place]
 
     @property
     def candidates(self) -> int:

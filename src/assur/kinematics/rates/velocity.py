@@ -19,6 +19,8 @@ from assur.kinematics.rates.units import scaled, unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 from assur.model.kernel_dimensions import kernel_dimensions
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import rate_names
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 ARRAYS = ("jp", "jq", "singular_output", "singular_input", "exists", "no_rates")
@@ -26,7 +28,7 @@ ARRAYS = ("jp", "jq", "singular_output", "singular_input", "exists", "no_rates")
 
 
 @dataclass(frozen=True, eq=False)
-class VelocityMap:
+class VelocityMap(Tabulated):
     """Jp (..., r, k) and Jq (..., r, n) with Jp v = Jq qdot at poses in one working mode, or at joint values.
 
     v are the rates of the pose as `assur.model.pose.rate_names` names them, for a quaternion the angular velocity; qdot
@@ -64,6 +66,18 @@ class VelocityMap:
     def length(self) -> float | None:
         """The characteristic length by which lengths are divided, in the mechanism's unit; None where nothing is."""
         return unit_length(self.record)
+
+    def _title(self) -> str:
+        return f"rates of the pose of {self.record.name} by rates of its inputs"
+
+    def _entries(self) -> Entries:
+        names = [f"{rate}/{own.name}" for rate in rate_names(self.record.platform.pose) for own in self.record.drives]
+        numbers = self.matrix.reshape(-1, len(names)).tolist()
+        rest = zip(self.condition.ravel().tolist(), self.singular_output.ravel().tolist(), strict=True)
+        return [
+            dict(zip(names, row, strict=True)) | {"condition": condition, "singular": singular}
+            for row, (condition, singular) in zip(numbers, rest, strict=True)
+        ]
 
     @cached_property
     def det_jp(self) -> FloatArray:

@@ -26,13 +26,14 @@ from assur.machine.accuracy.proved_poses import ProvedPoses, proved_poses
 from assur.machine.elasticity.skeletons import elastic
 from assur.machine.forces.reactions import child_points
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 
 
 @dataclass(frozen=True, eq=False)
-class PoseErrors:
+class PoseErrors(Tabulated):
     """First-order errors of the platform at a pose: displacement in the mechanism's unit, then rotation vector in rad.
 
     Attributes:
@@ -98,6 +99,15 @@ class PoseErrors:
         """Bounds of the pose with every tolerance of the file, proved: see `assur.machine.accuracy.proved_poses`."""
         off = {name: item.bound for name, item in self.record.machine.tolerances.items() if item.bound > 0.0}
         return proved_poses(self.record, self.values, off) if off else ProvedPoses({}, "no tolerances are stated")
+
+    def _title(self) -> str:
+        return f"errors of the platform of {self.record.name} per unit ({self.status.name})"
+
+    def _entries(self) -> Entries:
+        return [
+            {"name": name, **dict(zip(COORDINATES, row.tolist(), strict=True))}
+            for name, row in self.sensitivity.items()
+        ]
 
     def __str__(self) -> str:
         rows = [

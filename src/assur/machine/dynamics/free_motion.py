@@ -29,13 +29,14 @@ from assur.machine.masses.link_masses import all_masses
 from assur.machine.motion.joint_motion import ClosedMotion
 from assur.machine.motion.screws import rate_metres, screw_rates
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class FreeMotion:
+class FreeMotion(Tabulated):
     """The motion from a start, at N moments, in SI units.
 
     Attributes:
@@ -114,6 +115,17 @@ class FreeMotion:
     def gap(self) -> float:
         """The largest gap of the loops, in characteristic lengths."""
         return float(np.max(closure_error(self.record, self.values))) / characteristic_length(self.record)
+
+    def _title(self) -> str:
+        return f"free motion of {self.record.name} ({self.status})"
+
+    def _entries(self) -> Entries:
+        energies = zip(self.kinetic_energy.tolist(), self.potential_energy.tolist(), strict=True)
+        return [
+            {"t [s]": float(time), **dict(zip(self.record.platform.pose, pose.tolist(), strict=True))}
+            | {"kinetic [J]": kinetic, "potential [J]": potential}
+            for time, pose, (kinetic, potential) in zip(self.times, self.poses, energies, strict=True)
+        ]
 
     def __str__(self) -> str:
         end = self.departure.text if self.departure else "it goes on to its end"

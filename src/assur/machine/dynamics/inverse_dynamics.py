@@ -25,12 +25,13 @@ from assur.machine.forces.utilisation import Utilisation, peak, rms, utilisation
 from assur.machine.masses.link_masses import all_masses
 from assur.machine.motion.screws import rate_metres
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class MotionForces:
+class MotionForces(Tabulated):
     """Forces along a motion, at N moments, in SI units; none where the motion is refused.
 
     Attributes:
@@ -111,6 +112,19 @@ class MotionForces:
         True
         """
         return utilisation(self.record, self.with_friction if friction else self.forces, self.rates)
+
+    def _title(self) -> str:
+        return f"forces of {self.record.name} along a motion ({self.status})"
+
+    def _entries(self) -> Entries:
+        if self.answer is None:
+            return []
+        units = force_units(self.record)
+        names = [f"{own.name} [{unit}]" for own, unit in zip(self.record.drives, units, strict=True)]
+        return [
+            {"t [s]": float(time), **dict(zip(names, row.tolist(), strict=True))}
+            for time, row in zip(self.times, self.forces, strict=True)
+        ]
 
     def __str__(self) -> str:
         if self.departure is not None:

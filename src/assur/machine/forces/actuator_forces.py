@@ -28,6 +28,7 @@ from assur.machine.motion.joint_motion import ClosedMotion
 from assur.machine.motion.screws import rate_metres
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -40,7 +41,7 @@ STILL = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class ActuatorForces:
+class ActuatorForces(Tabulated):
     """Forces at N configurations, in SI units, in the order of the inputs, redundant ones last.
 
     Where the mechanism is singular in its inputs, or the configuration does not exist, forces are NaN.
@@ -130,6 +131,17 @@ class ActuatorForces:
     @property
     def _asked(self) -> Asked:
         return Asked(self.record, self.values, masses(self.record), self.load)
+
+    def _title(self) -> str:
+        return f"forces of the actuators of {self.record.name}"
+
+    def _entries(self) -> Entries:
+        units = force_units(self.record)
+        names = [f"{own.name} [{unit}]" for own, unit in zip(self.record.drives, units, strict=True)]
+        return [
+            {**dict(zip(names, row.tolist(), strict=True)), "status": Status(int(code)).name}
+            for row, code in zip(self.forces, self.status, strict=True)
+        ]
 
     def __str__(self) -> str:
         rows = [

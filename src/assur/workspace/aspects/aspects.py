@@ -19,6 +19,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.results.notebook import Entries, Tabulated
 from assur.work import Progress
 from assur.workspace.aspects.path import AspectPath, path_between
 from assur.workspace.aspects.places import Place, place, point_of
@@ -61,7 +62,7 @@ class Aspect:
 
 
 @dataclass(frozen=True, eq=False)
-class Aspects:
+class Aspects(Tabulated):
     """The aspects of one working mode inside a box.
 
     Attributes:
@@ -128,6 +129,15 @@ class Aspects:
         'connected'
         """
         return path_between(self.search, self._labels, self.names, point_of(self.box, start), point_of(self.box, end))
+
+    def _title(self) -> str:
+        return f"{len(self.aspects)} aspects of {self.mechanism}, mode {self.mode}, {self.how}, in {self.unit}"
+
+    def _entries(self) -> Entries:
+        return [
+            {"aspect": item.label, "at least": item.volume[0], "at most": item.volume[1], **item.signs}
+            for item in self.aspects
+        ]
 
     @property
     def undecided_share(self) -> float:
