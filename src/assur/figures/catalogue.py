@@ -11,6 +11,7 @@ from assur.errors import Interrupted, UnknownNameError
 from assur.figures.aspects import ASPECTS
 from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
+from assur.figures.ellipsoid import ELLIPSOID
 from assur.figures.encode import FORMATS, USUAL, encoded
 from assur.figures.flow import FLOW
 from assur.figures.force_maps import FORCE_MAPS
@@ -32,6 +33,8 @@ from assur.figures.solutions import SOLUTIONS
 from assur.figures.spec import Drawing, FigureKind, FigureSpec
 from assur.figures.structure import STRUCTURE
 from assur.figures.style import MILLIMETRE, styled
+from assur.figures.vibrations import VIBRATIONS
+from assur.figures.weakest import WEAKEST
 from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
@@ -61,6 +64,9 @@ ENTRIES: tuple[FigureKind, ...] = (
     JOINT_FORCES,
     FORCE_POLYTOPE,
     FORCE_MAPS,
+    ELLIPSOID,
+    WEAKEST,
+    VIBRATIONS,
     GRAPH,
 )
 COMPARE = "Compare Figure {} of the source."
@@ -73,7 +79,7 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
     ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
      'aspects', 'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'indices',
-     'reactions', 'polytope', 'forces', 'graph']
+     'reactions', 'polytope', 'forces', 'stiffness', 'weakest', 'vibrations', 'graph']
     """
     shared = context or Context(record)
     return [_spec(shared, entry) for entry in _present(shared)]

@@ -37,6 +37,15 @@ class ModeShape:
     links: Mapping[str, tuple[FloatArray, FloatArray]]
     shares: EnergyShares
 
+    def deflected(self, furthest: float) -> dict[str, FloatArray]:
+        """Link -> curves (c, k, 3) in the base frame, in m, where the point that moves most has gone `furthest`.
+
+        One of each beam, and of a rigid link one through its joints.
+        """
+        placed = {link: rest + furthest * moved for link, (rest, moved) in self.links.items()}
+        beams = {link: points.reshape(-1, SECTIONS, 3) for link, points in placed.items() if link in self.shares.links}
+        return {link: beams.get(link, points[None]) for link, points in placed.items()}
+
 
 def mode_shapes(own: Vibrations) -> tuple[ModeShape, ...]:
     """The shape of each vibration, its sign so that the platform's largest displacement is positive.

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from assur.errors import UsageError
-from assur.kinematics.status import Status
+from assur.figures.strain_colours import drawn_stiffness
 from assur.machine.elasticity.energies import ACTUATORS, EnergyShares
-from assur.machine.elasticity.stiffness import Stiffness, stiffness_at
+from assur.machine.elasticity.stiffness import Stiffness
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, RANK, Result, Scalar, Section, Table
 from assur.results.typeset_text import short
 
+PICTURES = ("stiffness", "weakest", "vibrations")
 SAID = (
     "How the platform gives way in the configuration that is drawn while the actuators hold their inputs. Links with a"
     " profile are Timoshenko’s beams, the others rigid, actuators are springs; profiles, materials and springs are"
@@ -27,15 +27,13 @@ def stiffness(findings: Findings) -> Section:
     Errors:
         UsageError: an actuator without stiffness, a pose that the actuators do not hold.
     """
-    answer = stiffness_at(findings.record, findings.drawn_joints[None])
-    status = Status(int(answer.status[0]))
-    if status != Status.regular:
-        raise UsageError(f"the actuators do not hold the platform where it is drawn: it is {status.name} there")
+    answer = drawn_stiffness(findings)
     results: list[Result] = [
         Scalar("ways in which the platform gives way", int(answer.rank[0]), "", RANK, note="of six"),
         _principal(answer),
         *_shared(answer.shares()),
         *_vibrations(answer),
+        *findings.picture(*PICTURES),
     ]
     return Section("Stiffness", SAID, results)
 
