@@ -10,7 +10,8 @@ from assur.kinematics.home import home_values
 from assur.machine.forces.forces_at_rest import forces_at_rest
 from assur.machine.masses.link_masses import masses
 from assur.model.machine_data import MachineData
-from assur.page.force_layers import DASHES, SIDES, SMALLEST, force_layers
+from assur.page.force_layers import DASHES, SMALLEST, force_layers
+from assur.page.turned_meshes import SIDES
 
 PLAIN, DASHED = 7, 4 * DASHES + 3
 """Rings of an arrow whose shaft is whole, and of one with dashes."""

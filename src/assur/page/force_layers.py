@@ -6,9 +6,8 @@ actuator that turns points along its axis, by the right hand.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +19,12 @@ from assur.machine.forces.actuator_forces import force_units
 from assur.machine.forces.forces_at_rest import ForcesAtRest, forces_at_rest
 from assur.machine.masses.link_masses import masses
 from assur.model.mechanism import MechanismRecord
+from assur.page.turned_meshes import Mesh, joined, turned
 from assur.scene.companion import companion
 from assur.scene.layers import Layer
 from assur.scene.skeleton import JointMark, skeleton
 
 FloatArray = NDArray[np.float64]
-Faces = NDArray[np.int64]
 REACTION, OPEN, ACTUATOR, WEIGHT = "#d55e00", "#e69f00", "#0072b2", "#555555"
 LONGEST, THIN = 0.3, 0.007
 """Of the mechanism's size: the longest arrow of a layer, and the radius of its shaft."""
@@ -33,7 +32,7 @@ SMALLEST = 0.02
 """Share of the largest below which there is no arrow."""
 ROUNDED = 1e-9
 """In N or N m: what is less is rounding."""
-SIDES, DASHES = 7, 4
+DASHES = 4
 HEAD, WIDE = 6.0, 2.4
 """Length and radius of an arrow's head, in radii of its shaft."""
 
@@ -115,15 +114,11 @@ def _layer(
     if not seen:
         return
     scale, radius = LONGEST * size / largest, THIN * size
-    meshes = [_arrow(arrow.start, scale * arrow.way, radius, solid) for arrow in seen]
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in meshes[:-1])])
-    faces = [faces + start for (_, faces), start in zip(meshes, starts, strict=True)]
-    yield Layer(
-        "force", label, colour, 1.0, np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(faces)
-    )
+    arrow_meshes = [_arrow(arrow.start, scale * arrow.way, radius, solid) for arrow in seen]
+    yield Layer("force", label, colour, 1.0, *joined(arrow_meshes))
 
 
-def _arrow(start: FloatArray, way: FloatArray, radius: float, solid: bool) -> tuple[FloatArray, Faces]:
+def _arrow(start: FloatArray, way: FloatArray, radius: float, solid: bool) -> Mesh:
     """Vertices (n, 3) and triangles (k, 3); the shaft in dashes unless `solid`."""
     length = float(np.linalg.norm(way))
     neck = max(length - HEAD * radius, 0.4 * length)
@@ -134,24 +129,4 @@ def _arrow(start: FloatArray, way: FloatArray, radius: float, solid: bool) -> tu
         [(2 * k * step, 0.0), (2 * k * step, radius), ((2 * k + 1) * step, radius), ((2 * k + 1) * step, 0.0)]
         for k in range(count)
     ]
-    pieces = [_turned(profile, start, way / length) for profile in (*shaft, head)]
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
-    faces = [faces + first for (_, faces), first in zip(pieces, starts, strict=True)]
-    return np.concatenate([vertices for vertices, _ in pieces]), np.concatenate(faces)
-
-
-def _turned(profile: Sequence[tuple[float, float]], start: FloatArray, along: FloatArray) -> tuple[FloatArray, Faces]:
-    """A profile of places along an axis and radii about it, turned about the axis."""
-    across = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
-    across /= np.linalg.norm(across)
-    angles = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    ring = np.cos(angles)[:, None] * across + np.sin(angles)[:, None] * np.cross(along, across)
-    vertices = np.concatenate([start + place * along + radius * ring for place, radius in profile])
-    low = np.arange(SIDES)
-    after, faces = np.roll(low, -1), []
-    for k, ((_, near), (_, far)) in enumerate(pairwise(profile)):
-        first, second = (
-            np.stack(corners, 1) for corners in ((low, after, after + SIDES), (low, after + SIDES, low + SIDES))
-        )
-        faces += [triangles + k * SIDES for triangles, radius in ((first, near), (second, far)) if radius]
-    return vertices, np.concatenate(faces)
+    return joined([turned(profile, start, way / length) for profile in (*shaft, head)])

@@ -15,6 +15,7 @@ from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.page.content import content
 from assur.page.force_layers import force_layers
+from assur.page.stiffness_layers import stiffness_layers
 from assur.results.json_text import json_text
 from assur.scene.layers import layers, layers_note, region
 from assur.work import Progress
@@ -47,9 +48,9 @@ def scene(
     Errors: UsageError or MechanismFileError where the mechanism has no home; UsageError for a resolution that is none.
     """
     found = region(record, resolution=resolution, tick=progress)
-    return content(
-        record, (*layers(record, found), *force_layers(record, home_values(record))), layers_note(record, found)
-    )
+    home = home_values(record)
+    machine = (*force_layers(record, home), *stiffness_layers(record, home))
+    return content(record, (*layers(record, found), *machine), layers_note(record, found))
 
 
 def page_html(content: Mapping[str, Any]) -> str:

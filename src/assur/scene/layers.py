@@ -52,7 +52,7 @@ SINGULAR = ("#cc3311", "#ee7733", "#aa3377", "#bb9900", "#882255", "#999933")
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """A surface or lines where the platform's point can be, or arrows of forces.
+    """A surface or lines where the platform's point can be, arrows of forces, or what gives way.
 
     Attributes:
         label: what it is, with its numbers. factor: the parallel factor that vanishes on a singular one, else empty.
@@ -60,7 +60,7 @@ class Layer:
         vertices: (n, 3) in the base frame. faces: (k, 3) triangles or (k, 2) segments.
     """
 
-    kind: Literal["workspace", "singular", "section", "force"]
+    kind: Literal["workspace", "singular", "section", "force", "stiffness"]
     label: str
     colour: str
     opacity: float

@@ -1,0 +1,47 @@
+"""Layers of stiffness: the ellipsoid is that of the compliance, tubes are where the vibration carries the links."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import platform_frame
+from assur.kinematics.validation.check import METRES
+from assur.machine.elasticity.stiffness import stiffness_at
+from assur.model.machine_data import MachineData
+from assur.page.stiffness_layers import FURTHEST, THICK, THIN, stiffness_layers
+from assur.page.turned_meshes import SIDES
+from assur.scene.companion import companion
+from assur.scene.skeleton import skeleton
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "delta_4s"])
+def test_layers_are_the_compliance_and_the_deflected_machine(name):
+    mechanism = assur.load(name)
+    values = home_values(mechanism)
+    solved = stiffness_at(mechanism, values[None])
+    ball, *vibrations = stiffness_layers(mechanism, values)
+    middle = ball.vertices.mean(axis=0)
+    np.testing.assert_allclose(middle, platform_frame(mechanism, values)[1], atol=1e-9 * np.ptp(ball.vertices))
+    unit = (ball.vertices - middle) @ np.linalg.inv(solved.compliance[0, :3, :3])
+    sizes = np.linalg.norm(unit, axis=1)  # of the forces that displace so far
+    assert np.ptp(sizes) < 1e-6 * sizes.mean()
+    size = skeleton(mechanism, companion(mechanism), values).size
+    shapes = solved.mode_shapes()
+    assert len(vibrations) == len(shapes) == 6
+    for layer, shape in zip(vibrations, shapes, strict=True):
+        assert f"{shape.frequency:.3g} Hz" in layer.label
+        curves = shape.deflected(FURTHEST * size * METRES[mechanism.unit])
+        for link, share in shape.shares.links.items():
+            for point in np.reshape(curves.get(link, ()), (-1, 3)) / METRES[mechanism.unit]:
+                radius = size * (THIN + (THICK - THIN) * share)
+                near = np.linalg.norm(layer.vertices - point, axis=1)
+                assert near.min() < 1e-9 * size  # the middle of an end
+                assert np.sum(np.abs(near - radius) < 1e-9 * size) >= SIDES
+
+
+def test_without_springs_there_are_none():
+    bare = replace(assur.load("zeng2019"), machine=MachineData())
+    assert stiffness_layers(bare, home_values(bare)) == ()
