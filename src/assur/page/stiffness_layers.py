@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 COLOUR, WAYS = "#009e73", ("#cc3311", "#ee7733", "#aa4499", "#882255", "#bb5566", "#994455")
 LONGEST, FURTHEST = 0.2, 0.12
 """Of the mechanism's size: the longest semi-axis, and how far the point goes that moves most."""
-THIN, THICK = 0.003, 0.012
+THIN, THICK = 0.005, 0.015
 """Of the mechanism's size: radii of a tube in which there is no energy, and in which there is all."""
 THINNEST = 1e-3
 """Share of the longest semi-axis that the others have at least, so that a flat ellipsoid is seen."""
