@@ -21,6 +21,7 @@ def few_nodes():
         patch.setattr("assur.figures.index_maps.NODES", 9)
         patch.setattr("assur.figures.indices.NODES", 20)
         patch.setattr("assur.figures.force_maps.NODES", 9)
+        patch.setattr("assur.figures.weakest.NODES", 9)
         yield
 
 

@@ -58,7 +58,7 @@ def strain_colours(shares: Mapping[str, float], most: float) -> dict[str, str]:
     """A colour of each link that has a share, `most` the darkest.
 
     >>> strain_colours({"bar": 0.5, "rod": 0.0}, 0.5)
-    {'bar': '#800026', 'rod': '#fede80'}
+    {'bar': '#800026', 'rod': '#fed976'}
     """
     return {link: to_hex(PALETTE(PALEST + (1.0 - PALEST) * share / (most or 1.0))) for link, share in shares.items()}
 
