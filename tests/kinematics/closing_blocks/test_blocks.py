@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from assur.kinematics.closing_blocks.blocks import PLATFORM, closing_groups
+from assur.kinematics.closing_blocks.blocks import PLATFORM, closing_groups, standing_links
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.model.registry import load_record
 
@@ -41,3 +41,13 @@ def test_rods_between_ball_joints_spin_and_nothing_else_is_lost():
     screws = ScrewColumns(record, assemblies_by_chance(record)[:6])
     matrices = block.derivative(screws, [record.base] * len(block.loops))
     assert np.max(np.linalg.matrix_rank(matrices, tol=1e-7)) == block.rank
+
+
+def test_links_that_stand_still_against_each_other_are_held_alike():
+    """So that one of them is held for all, where factors are sought: with the inputs held a leg is one rod."""
+    record = load_record("planar_3rpr")
+    standing = standing_links(record, "direct", False)
+    alike = [link for link, own in standing.items() if list(standing.values()).count(own) > 1]
+    assert len(alike) == 6
+    for link in alike:
+        assert closing_groups(record, "direct", (link,)) == closing_groups(record, "direct", (standing[link],))

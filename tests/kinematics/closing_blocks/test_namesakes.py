@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
-from assur.kinematics.closing_blocks.columns import assemblies_by_chance
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import distinguishing_signs
 from assur.kinematics.closing_blocks.namesakes import namesakes
 from assur.model.registry import load_record
@@ -16,10 +16,10 @@ from assur.model.registry import load_record
 )
 def test_without_one_of_its_names_solutions_are_namesakes_and_with_all_none_are(name, problem):
     record = sorted_by_name(load_record(name))
-    signs, near = distinguishing_signs(record, problem), assemblies_by_chance(record)
+    signs, near = distinguishing_signs(record, problem), ScrewColumns(record, assemblies_by_chance(record))
     every = range(len(signs))
-    assert not len(namesakes(record, problem, signs, near, every))
+    assert not len(namesakes(problem, signs, near, every))
     for left in every:
-        unlike = namesakes(record, problem, signs, near, [own for own in every if own != left])
+        unlike = namesakes(problem, signs, near, [own for own in every if own != left])
         assert len(unlike)
         assert np.array_equal(np.unique(unlike, axis=0), np.equal(every, left)[None])

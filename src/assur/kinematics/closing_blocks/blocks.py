@@ -127,7 +127,7 @@ def closing_groups(
     >>> [block.joints for group in groups for block in group.blocks]
     [('A1', 'B1', 'platform in its pose'), ('A2', 'B2', 'P')]
     """
-    node = _node(record, problem, whole_pose)
+    node = standing_links(record, problem, whole_pose)
     left = joined(_free_joints(record, problem, whole_pose), (node[link] for link in held), record.base)
     screws = _few_assemblies(record)
     answer: list[ClosingGroup] = []
@@ -189,7 +189,7 @@ def loop_blocks(record: MechanismRecord) -> tuple[ClosingBlock, ...]:
 
 def _free_joints(record: MechanismRecord, problem: Problem, whole_pose: bool) -> tuple[FreeJoint, ...]:
     """The joints that the inputs or the pose leave free; where it leaves some of the platform, a joint for that."""
-    node, free = _node(record, problem, whole_pose), _free_columns(record, problem)
+    node, free = standing_links(record, problem, whole_pose), _free_columns(record, problem)
     answer = [
         FreeJoint(name, (node[joint.parent], node[joint.child]), free[name])
         for name, joint in record.joints.items()
@@ -202,7 +202,13 @@ def _free_joints(record: MechanismRecord, problem: Problem, whole_pose: bool) ->
     return tuple(joint for joint in answer if joint.ends[0] != joint.ends[1])
 
 
-def _node(record: MechanismRecord, problem: Problem, whole_pose: bool) -> Mapping[str, str]:
+def standing_links(record: MechanismRecord, problem: Problem, whole_pose: bool) -> Mapping[str, str]:
+    """Link -> the first of those that stand still against it, the base before all others, where a problem is held.
+
+    >>> from assur.model.registry import load_record
+    >>> standing_links(load_record("fivebar"), "direct", False)
+    {'base': 'base', 'crank1': 'base', 'crank2': 'base', 'rod1': 'rod1', 'rod2': 'rod2'}
+    """
     free = _free_columns(record, problem)
     pairs = [(joint.parent, joint.child) for name, joint in record.joints.items() if not free[name]]
     if problem == "inverse" and (whole_pose or not open_freedoms(record)):

@@ -180,6 +180,11 @@ class ScrewColumns:
         return {}
 
     @cached_property
+    def shares(self) -> dict[object, FloatArray]:
+        """Sign -> its values (N,) as shares, of those that were asked for."""
+        return {}
+
+    @cached_property
     def _seen(self) -> dict[str, FloatArray]:
         return {}
 

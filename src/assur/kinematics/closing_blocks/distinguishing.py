@@ -116,14 +116,14 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
         if np.sum(np.any(compared[2], axis=1)) > np.sum(np.any(apart, axis=1)):
             known, (answers, joined, apart) = finer, compared
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
-    near = np.concatenate([assemblies_by_chance(ordered), *(answer.values for answer in answers)])
-    last = [problem == "direct" and flat for flat in _flat_loops(known, joined, ScrewColumns(ordered, near))]
+    near = ScrewColumns(ordered, np.concatenate([assemblies_by_chance(ordered), *(own.values for own in answers)]))
+    last = [problem == "direct" and flat for flat in _flat_loops(known, joined, near)]
     order = [*_separating(apart.T, last)]
     given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(ordered)]
-    merging = differing_at_folds(ordered, problem, signs, near, [*order, *given])
+    merging = differing_at_folds(problem, signs, near, [*order, *given])
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
-    order += _separating(namesakes(ordered, problem, signs, near, [*order, *given]).T, last)
+    order += _separating(namesakes(problem, signs, near, [*order, *given]).T, last)
     return tuple(
         ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)
     )

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.signs import ChangingSign, factor_signs
+from assur.kinematics.closing_blocks.strokes import with_zero
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
@@ -54,21 +55,17 @@ ASIDE = 0.25
 
 
 def differing_at_folds(
-    record: MechanismRecord,
-    problem: Problem,
-    known: Sequence[ChangingSign],
-    near: FloatArray,
-    telling: Sequence[int] = (),
+    problem: Problem, known: Sequence[ChangingSign], screws: ScrewColumns, telling: Sequence[int] = ()
 ) -> NDArray[np.bool_]:
-    """Which signs (P, s) differ between two solutions of the problem that merge, at folds between assemblies (N, n).
+    """Which signs (P, s) differ between two solutions of the problem that merge, at folds between assemblies.
 
     No fold is sought where each sign is a product of those with the places `telling`, in every one of the assemblies:
     then it differs as these do. Signs that the inputs decide may be among them.
     """
-    signs = factor_signs(known, ScrewColumns(record, near))
+    record, signs = screws.record, factor_signs(known, screws)
     regular = np.all(signs != 0, axis=1)
     chosen = np.flatnonzero(regular)[:: 1 + int(np.sum(regular)) // MOST_ENDS]
-    near, signs = near[chosen], signs[chosen]
+    near, signs = screws.values[chosen], signs[chosen]
     own = np.sort(np.unique(signs, axis=1, return_index=True)[1])
     if max(independent((signs[:, [*telling, *own]] != signs[:1, [*telling, *own]]).T), default=0) < len(telling):
         return np.zeros((0, len(known)), dtype=bool)
@@ -104,7 +101,7 @@ class _Folds:
             column: (N,) which sign differs between them: it is zero somewhere on the way.
         """
         near = self._approached(first, second, column)
-        ways = self._ways(near)[column, np.arange(len(near))]
+        ways = self._ways(near, column)
         close = self._size(2.0 * ways) < CLOSE  # NaN is not
         near, ways = near[close], ways[close]
         if not len(near):
@@ -125,21 +122,28 @@ class _Folds:
     def _approached(self, first: FloatArray, second: FloatArray, column: IntArray) -> FloatArray:
         """Assemblies (N, n) near which the sign is zero: by halving the way, whose ends close all the time."""
         first = first.copy()
-        sign = factor_signs(self.known, ScrewColumns(self.record, first))[np.arange(len(first)), column]
+        sign = with_zero(self._shares(first, column))
         way = second - first
         turning = periodic(self.record)
         way[:, turning] = np.remainder(way[:, turning] + np.pi, 2.0 * np.pi) - np.pi
         for _ in range(HALVINGS):
             way = way / 2.0
             closed = assemble(self.record, first + way, near=True, max_steps=MOST_STEPS)
-            signs = factor_signs(self.known, ScrewColumns(self.record, closed.values))
-            onward = closed.closed & (signs[np.arange(len(first)), column] == sign)
+            onward = closed.closed & (with_zero(self._shares(closed.values, column)) == sign)
             way[onward] += first[onward] + way[onward] - closed.values[onward]
             first[onward] = closed.values[onward]
         return first
 
-    def _ways(self, values: FloatArray) -> FloatArray:
-        """Changes (s, N, n) of the joint values that take each sign to zero and move inputs or pose least.
+    def _shares(self, values: FloatArray, column: IntArray) -> FloatArray:
+        """What the sign of a column (N,) is, as a share, at an assembly (N, n) each."""
+        shares = np.empty(len(values))
+        for k in np.unique(column):
+            own = column == k
+            shares[own] = self.known[k].shares(ScrewColumns(self.record, values[own]))
+        return shares
+
+    def _ways(self, values: FloatArray, column: IntArray) -> FloatArray:
+        """Changes (N, n) of joint values (N, n) that take the sign of a column (N,) to zero; inputs or pose move least.
 
         Near a fold it is that of the motion which is lost, and the other solution is as far beyond it.
         """
@@ -148,15 +152,14 @@ class _Folds:
         steps = np.swapaxes(at.null[:, :, moving], -1, -2) * at.scale
         rates = (at.inputs if self.problem == "direct" else at.twists)[:, :, moving]
         resistance = np.swapaxes(rates, -1, -2) @ rates + UNMOVED * np.eye(len(moving))
-        screws = ScrewColumns(self.record, values)
-        beside = ScrewColumns(self.record, (values[:, None] + STEP * steps).reshape(-1, values.shape[1]))
-        shares = np.array([factor.shares(screws) for factor in self.known])
-        moved = np.array([factor.shares(beside) for factor in self.known]).reshape(*shares.shape, len(moving))
-        slopes = (moved - shares[..., None]) / STEP
-        across = np.linalg.solve(resistance, slopes[..., None])[..., 0]
+        beside = (values[:, None] + STEP * steps).reshape(-1, values.shape[1])
+        shares = self._shares(values, column)
+        moved = self._shares(beside, np.repeat(column, len(moving))).reshape(len(values), len(moving))
+        slopes = (moved - shares[:, None]) / STEP
+        across = np.linalg.solve(resistance, slopes[:, :, None])[:, :, 0]
         with np.errstate(invalid="ignore", divide="ignore"):
-            rates = -shares[..., None] * across / np.sum(slopes * across, axis=-1, keepdims=True)
-        return np.asarray(np.einsum("snf,nfi->sni", rates, steps))
+            rates = -shares[:, None] * across / np.sum(slopes * across, axis=-1, keepdims=True)
+        return np.asarray(np.einsum("nf,nfi->ni", rates, steps))
 
     def _size(self, changes: FloatArray) -> FloatArray:
         return np.asarray(np.linalg.norm(changes / joint_units(self.record), axis=-1))

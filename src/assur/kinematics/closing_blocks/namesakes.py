@@ -31,24 +31,19 @@ MOST_PAIRS = 6
 
 
 def namesakes(
-    record: MechanismRecord,
-    problem: Problem,
-    known: Sequence[ChangingSign],
-    near: FloatArray,
-    telling: Sequence[int],
+    problem: Problem, known: Sequence[ChangingSign], screws: ScrewColumns, telling: Sequence[int]
 ) -> NDArray[np.bool_]:
     """Which signs (P, s) differ between two solutions of one problem, which those with the places `telling` do not.
 
     Args:
-        record: the mechanism.
         problem: "direct" holds the inputs, "inverse" the pose.
         known: the signs.
-        near: assemblies (N, n), some of which are led to the problems of others.
+        screws: of assemblies (N, n), some of which are led to the problems of others.
         telling: places of signs that have names, or that the inputs decide.
     """
-    signs = factor_signs(known, ScrewColumns(record, near))
+    record, signs = screws.record, factor_signs(known, screws)
     regular = np.all(signs != 0, axis=1)
-    near, signs = near[regular], signs[regular]
+    near, signs = screws.values[regular], signs[regular]
     first, second = _pairs(signs, _given(record, problem, near), telling)
     if not len(first):
         return np.zeros((0, len(known)), dtype=bool)

@@ -30,6 +30,7 @@ from assur.kinematics.closing_blocks.blocks import (
     closing_groups,
     loop_blocks,
     spin_rates,
+    standing_links,
 )
 from assur.kinematics.closing_blocks.columns import FEW, ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.spaces import in_narrow_loops, span, steadiest_link
@@ -85,7 +86,9 @@ class BlockSign:
 
     def shares(self, screws: ScrewColumns) -> FloatArray:
         """The block's determinant (N,) as a share of its largest among assemblies by chance; positive at home."""
-        return np.asarray(np.linalg.det(self.matrices(screws)) / self.size)
+        if self not in screws.shares:
+            screws.shares[self] = np.asarray(np.linalg.det(self.matrices(screws)) / self.size)
+        return screws.shares[self]
 
     def matrices(self, screws: ScrewColumns) -> FloatArray:
         """The block's square matrices (N, d, d): its derivative in its own space, bordered by spins."""
@@ -178,12 +181,16 @@ def _block_signs(record: MechanismRecord, problem: Problem, screws: ScrewColumns
     of the group at rates of motions has a sign, and the last block, which moves by itself.
     """
     links = [link for link in record.links if link != record.base]
-    held: list[tuple[str, ...]] = [(), *((link,) for link in links)]
-    if len(links) <= PAIRS:
-        held += combinations(links, 2)
+    sizes = (0, 1, 2) if len(links) <= PAIRS else (0, 1)
+    held = [chosen for size in sizes for chosen in combinations(links, size)]
     poses = (False, True) if problem == "inverse" and open_freedoms(record) else (False,)
-    met = set()
+    standing = {whole_pose: standing_links(record, problem, whole_pose) for whole_pose in poses}
+    asked, met = set(), set()
     for links_held, whole_pose in product(held, poses):
+        question = frozenset(standing[whole_pose][link] for link in links_held) - {record.base}, whole_pose
+        if question in asked:
+            continue
+        asked.add(question)
         for group in closing_groups(record, problem, links_held, whole_pose):
             if group.whole.columns not in met:
                 met.add(group.whole.columns)
