@@ -3,17 +3,23 @@
 import numpy as np
 import pytest
 
+from assur.joint_graph.frames import frames
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
 from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
-from assur.machine.forces.reactions import reactions
+from assur.machine.forces.reactions import child_points, reactions
 from assur.machine.masses.link_masses import masses
 from assur.model.pose import LENGTHS
 from weighed import motion_of, moved, place, weighed
 
 STEP = 1e-5
 """Seconds on either side of which quantities are compared: their curves then err by some 1e-9."""
+TIMES = 0.01 * np.arange(-4, 5)
+NOW = 4
+FIRST = np.array([3, -32, 168, -672, 0, 672, -168, 32, -3]) / 840 / 0.01
+SECOND = np.array([-9, 128, -1008, 8064, -14350, 8064, -1008, 128, -9]) / 5040 / 0.01**2
+"""Derivatives in the middle of nine places to the eighth order."""
 WRENCH = [3.0, -4.0, 5.0, 0.6, 0.7, -0.8]
 
 
@@ -57,6 +63,39 @@ def test_newton_and_euler_for_every_link_give_the_same(moving):
     np.testing.assert_allclose(passed.actuators, moving.forces[0], atol=1e-9 * size)
     assert passed.residual <= 1e-9 * (size + 1.0)
     assert passed.equations == 6 * (len(moving.record.links) - 1)
+
+
+def test_joints_and_loads_change_the_momentum_of_each_link(moving):
+    """Velocities and accelerations of links by differences of their places; a joint passes on what it is given."""
+    record, metre = moving.record, METRES[moving.record.unit]
+    path = moved(record, moving.values, moving.joint_rates[0], TIMES, moving.joint_accelerations[0])
+    placed, gravity = frames(record, path), masses(record).gravity
+    points, point = child_points(record, moving.values), moving.motion.point[0]
+    passed = {link: np.zeros(6) for link in record.links}
+    for joint in reactions(moving).joints:
+        wrench = about_base(joint.force, joint.moment, points[joint.joint])
+        passed[record.joints[joint.joint].child] += wrench
+        passed[record.joints[joint.joint].parent] -= wrench
+    passed[record.platform.link] += about_base(WRENCH[:3], WRENCH[3:], point)
+    size = max(np.abs(wrench).max() for wrench in passed.values())
+    for link, (rotation, origin) in placed.items():
+        if link == record.base:
+            continue
+        data = record.machine.links[link]
+        centre = metre * (origin + rotation @ data.centre)
+        turned, speeding = (np.tensordot(weights, rotation, 1) @ rotation[NOW].T for weights in (FIRST, SECOND))
+        spin, change = (
+            0.5 * np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]]) for m in (turned, speeding)
+        )
+        inertia = rotation[NOW] @ data.inertia @ rotation[NOW].T
+        force = data.mass * (np.tensordot(SECOND, centre, 1) - gravity)
+        moment = inertia @ change + np.cross(spin, inertia @ spin)
+        np.testing.assert_allclose(passed[link], about_base(force, moment, centre[NOW]), atol=1e-6 * size, err_msg=link)
+
+
+def about_base(force, moment, point):
+    """A wrench (6,) at a point (3,), its moment about the base's origin."""
+    return np.concatenate([force, moment + np.cross(point, force)])
 
 
 @pytest.mark.parametrize("at_rest", [True, False])

@@ -55,11 +55,12 @@ def motion_of(record):
     return np.random.default_rng(2).normal(size=(2, 1, len(units))) * units
 
 
-def moved(record, values, rates, seconds):
-    """The assembly (1, n) after so long a time at joint rates (n,) in SI units, the loops closed again."""
-    rates = seconds * rates / rate_units(record)
-    after = values[0] + rates
+def moved(record, values, rates, seconds, changes=0.0):
+    """Assemblies (N, n) after such times at joint rates (n,) that change, in SI units, the loops closed again."""
+    seconds = np.reshape(seconds, (-1, 1))
+    away = (seconds * rates + 0.5 * seconds**2 * changes) / rate_units(record)
+    after = values[0] + away
     for turn in joint_graph(record).turns:
-        turned = rotations.from_vector(rates[turn]) @ rotations.from_vector(values[0, turn])
-        after[turn] = rotations.to_vector(turned)
-    return assemble(record, after[None], near=True).values
+        turned = rotations.from_vector(away[:, turn]) @ rotations.from_vector(values[0, turn])
+        after[:, turn] = rotations.to_vector(turned)
+    return assemble(record, after, near=True).values

@@ -91,6 +91,11 @@ def test_a_start_may_stand_below_the_forces(fivebar):
         ("t_end = 1\n", [(1, "pose", "missing")]),
         ("harmonic = 3\n", [(1, "harmonic", "3")]),
         ("[harmonics]\n", [(1, "harmonics", "unknown key"), (1, "pose", "missing"), (1, "t_end", "missing")]),
+        ("", [(1, "harmonic", "missing")]),
+        (FALL + "[forces]\nvalues = [[0, 1], [4, 3]]\n", [(3, "forces.t", "missing")]),
+        (FALL + "[forces]\nt = [0, 1]\n", [(3, "forces.values", "missing")]),
+        (FALL + "[forces]\nt = [1, 0]\nvalues = [[0, 1], [4, 3]]\n", [(4, "forces.t[1]", "0 after 1")]),
+        (FALL + "[forces]\nt = [0, 1]\nvalues = [[0, 1]]\n", [(5, "forces.values", "a list of 1")]),
         (FALL + "[forces]\npose = [0, 0]\n", [(4, "forces.pose", "pose a second time")]),
     ],
 )

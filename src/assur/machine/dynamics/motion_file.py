@@ -82,6 +82,9 @@ class _Reading:
         if len(kinds) > 1:
             self.faults.add((kinds[1],), f"[{kinds[0]}] and [{kinds[1]}]", "allowed: one of them")
             return MotionFile(None, None)
+        if not self.data:
+            self.faults.add(("harmonic",), "missing", "allowed: [harmonic], [samples], or pose, t_end and [forces]")
+            return MotionFile(None, None)
         prescribed = kinds and kinds[0] != "forces"
         self._known(self.data, (), (*kinds, *(() if prescribed else (*START, "forces"))), ("harmonic", "samples"))
         table = self.data.get(kinds[0], {}) if kinds else {}
@@ -131,12 +134,11 @@ class _Reading:
         if in_time:
             times = self._times(table, ("forces",), 2)
             values = self._rows(table, ("forces",), "values", drives, np.ones(len(drives)), len(times))
-            exerted = None if len(times) != len(values) else forces_in_time(times, values)
         else:
             constant = np.array([self._of_drive(table, pair) for pair in zip(drives, labels, strict=True)])
-            exerted = constant_forces(constant)
-        if self.faults.problems or exerted is None or end is None:
+        if self.faults.problems or end is None:
             return None
+        exerted = forces_in_time(times, values) if in_time else constant_forces(constant)
         return Release(pose, velocity, end, exerted, count=count or MOMENTS)
 
     def _of_drive(self, table: dict[str, Any], names: Sequence[str]) -> float:
