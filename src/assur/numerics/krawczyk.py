@@ -155,8 +155,10 @@ def _rows(number: Interval) -> Interval:
 
 
 def total(terms: Interval, axis: int = -2) -> Interval:
-    """Sum along an axis."""
+    """Sum along an axis; of nothing it is zero."""
     terms = _rows(terms)
+    if not terms.low.shape[axis]:
+        return Interval.of(terms.low.sum(axis=axis))
     low, high = np.moveaxis(terms.low, axis, 0), np.moveaxis(terms.high, axis, 0)
     defined = np.moveaxis(terms.defined, axis, 0)
     total = Interval(low[0], high[0], defined[0])

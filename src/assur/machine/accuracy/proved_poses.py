@@ -9,12 +9,16 @@ of J and m the nominal q, every zero near by lies in
 and if that lies inside the box of q there is exactly one for each d (Krawczyk's test with parameters). The mean value
 theorem then bounds the pose: x(m, 0) + (x_d - x_q J^-1 G) d. In an overconstrained mechanism the equations that are
 left out hold for dimensions that assemble; of these the bounds are. A rod's spin is held, it moves nothing else.
+
+Where x certainly rises with d_k all over the box, it is largest at the end of d_k. So the bounds of each coordinate are
+drawn in: what has a sign is put at its end, the rest is bounded again there, and the zero is the same one as it lies
+in the box in which there is one. Nothing has to be split, however many dimensions are off.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -88,32 +92,88 @@ def proved_poses(record: MechanismRecord, values: FloatArray, off: Mapping[str, 
     if chosen is None:
         return ProvedPoses({}, "the inputs do not hold the platform firmly enough")
     equations, unknown = chosen
-    scale = joint_scales(record)[unknown]
     centre = _centre(record, values)[unknown]
     graph = _Graph(record, values, names, equations, unknown)
-    nominal = graph.slopes(Interval.of(centre), Interval.of(np.zeros(len(names))))
-    count = len(unknown)
+    whole = _proof(graph, centre, bounds)
+    if whole is None:
+        return ProvedPoses({}, "the tolerances are too wide, or a singularity is too near")
+    return ProvedPoses(
+        {name: (_end(whole, name, -1.0, bounds), _end(whole, name, 1.0, bounds)) for name in whole.bounds}
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Proof:
+    """One zero for each d: the box of joints (q,) that holds all of them, bounds of coordinates and of their slopes.
+
+    Attributes:
+        graph: of what.
+        centre: (q,) joint values.
+        unique: (q,) the box in which there is one zero.
+        moved: (q, t) change of the joints per what is off, in floats.
+        bounds: of each coordinate.
+        slopes: (t,) of each coordinate, by what is off.
+    """
+
+    graph: _Graph
+    centre: FloatArray
+    unique: Interval
+    moved: FloatArray
+    bounds: dict[str, tuple[float, float]]
+    slopes: dict[str, Interval]
+
+
+def _proof(graph: _Graph, centre: FloatArray, bounds: FloatArray) -> _Proof | None:
+    """Of zeros near joint values (q,) while what is off stays within bounds (t,)."""
+    count, scale = len(centre), joint_scales(graph.record)[graph.unknown]
+    nominal = graph.slopes(Interval.of(centre), Interval.of(np.zeros(len(bounds))))
     middle = nominal.rows.middle
-    moved = np.abs(np.linalg.lstsq(middle[:, :count], middle[:, count:])[0]) @ bounds
-    half = GROWTH * moved + FLOOR * scale
+    answers = np.linalg.lstsq(middle[:, :count], np.column_stack([middle[:, count:], nominal.values.middle]))[0]
+    half = GROWTH * np.abs(answers) @ np.append(bounds, 1.0) + FLOOR * scale
     allowed = Interval.of(-bounds, bounds)
     for _ in range(TRIES):
-        over = graph.slopes(Interval.of(centre - half, centre + half), allowed)
+        box = Interval.of(centre - half, centre + half)
+        over = graph.slopes(box, allowed)
         parts = _image(nominal, over)
         if parts is None:
-            break
+            return None
         rest, answer, start = parts
         reach = (_applied(rest, Interval.of(-half, half)) - start - _applied(answer, allowed)).magnitude
         if not np.all(np.isfinite(reach)):
-            break
+            return None
         if np.all(reach < half):  # proved; what lies in the image is less, and has closer bounds
             closer = graph.slopes(Interval.of(centre - reach, centre + reach), allowed)
             again = _image(nominal, closer)
-            if again is not None and over.whole:
-                return ProvedPoses(_bounded(record, nominal, closer, again, allowed, scale))
-            break
+            if again is None or not over.whole:
+                return None
+            own, slopes = _bounded(graph.record, nominal, closer, again, allowed, scale)
+            return _Proof(graph, centre, box, np.asarray(-answers[:, :-1], dtype=np.float64), own, slopes)
         half = GROWTH * reach + FLOOR * scale
-    return ProvedPoses({}, "the tolerances are too wide, or a singularity is too near")
+    return None
+
+
+def _end(whole: _Proof, name: str, sense: float, bounds: FloatArray) -> float:
+    """The largest that a coordinate can be, or the least where `sense` is -1.
+
+    What it certainly rises or falls with is put at its end, and again, as more of the rest then has a sign.
+    """
+    proof, side = whole, 1 if sense > 0.0 else 0
+    end = whole.bounds[name][side]
+    while True:
+        slopes, graph = proof.slopes[name], proof.graph
+        signs = sense * (slopes.positive.astype(float) - slopes.negative.astype(float))
+        free = signs == 0.0
+        if np.all(free):
+            return end
+        ends = dict(zip(graph.names, (signs * bounds).tolist(), strict=True))
+        names = tuple(own for own, left in zip(graph.names, free, strict=True) if left)
+        fixed = {**graph.fixed, **{own: off for own, off in ends.items() if own not in names}}
+        centre = proof.centre + proof.moved @ (signs * bounds)
+        bounds = bounds[free]
+        at_ends = _proof(replace(graph, names=names, fixed=fixed), centre, bounds)
+        if at_ends is None or not np.all(at_ends.unique.within(whole.unique)):
+            return end
+        proof, end = at_ends, sense * min(sense * end, sense * at_ends.bounds[name][side])
 
 
 def _image(nominal: _Slopes, over: _Slopes) -> tuple[Interval, Interval, Interval] | None:
@@ -129,13 +189,17 @@ def _image(nominal: _Slopes, over: _Slopes) -> tuple[Interval, Interval, Interva
 
 @dataclass(frozen=True, eq=False)
 class _Graph:
-    """The chosen equations of a joint graph near joint values (n,), over unknown joints and what is off."""
+    """The chosen equations of a joint graph near joint values (n,), over unknown joints and what is off.
+
+    What is `fixed` is off by a number.
+    """
 
     record: MechanismRecord
     values: FloatArray
     names: tuple[str, ...]
     equations: Sequence[int]
     unknown: Sequence[int]
+    fixed: Mapping[str, float] = field(default_factory=dict)
 
     def slopes(self, joints: Interval, off: Interval) -> _Slopes:
         """Values and derivatives over boxes of the unknown joints (q,) and of what is off (t,)."""
@@ -143,7 +207,8 @@ class _Graph:
         unit = np.eye(count)
         boxes = [*(joints[[k]] for k in range(len(self.unknown))), *(off[[k]] for k in range(len(self.names)))]
         duals = [Dual(part, Interval.of(unit[:, [k]])) for k, part in enumerate(boxes)]
-        shifts = dict(zip(self.names, duals[len(self.unknown) :], strict=True))
+        shifts: dict[str, Any] = dict(zip(self.names, duals[len(self.unknown) :], strict=True))
+        shifts |= {name: Interval.of(np.array([value])) for name, value in self.fixed.items()}
         numbers: list[Any] = [Interval.of(np.array([value])) for value in _centre(self.record, self.values)]
         for place, dual in zip(self.unknown, duals, strict=False):
             numbers[place] = dual
@@ -198,8 +263,11 @@ def _bounded(
     parts: tuple[Interval, Interval, Interval],
     allowed: Interval,
     scale: FloatArray,
-) -> dict[str, tuple[float, float]]:
-    """Bounds of the coordinates by the mean value theorem; `parts` are I - Y J, Y G and Y F(m, 0)."""
+) -> tuple[dict[str, tuple[float, float]], dict[str, Interval]]:
+    """Bounds of the coordinates by the mean value theorem, and of their slopes (t,) by what is off.
+
+    `parts` are I - Y J, Y G and Y F(m, 0).
+    """
     rest, answer, start = parts
     count = len(scale)
     whole = stack([*(answer[:, k] for k in range(answer.shape[1])), start], axis=1)  # (q, t + 1)
@@ -209,16 +277,16 @@ def _bounded(
     moved = whole + Interval.of(-more, more)
     for _ in range(2):
         moved = whole + _product(rest, moved)  # what it encloses is so made of itself
-    bounds = {}
+    bounds, slopes = {}, {}
     for name in record.platform.pose:
         if name in QUATERNION:
             continue
         slope = over.pose[name]
         along = total(moved * slope[:count][:, None], axis=0)
-        by_off, base = slope[count:] - along[:-1], nominal.pose[f"value {name}"] - along[[-1]]
-        reached = base + total(by_off * allowed, axis=-1)
+        slopes[name], base = slope[count:] - along[:-1], nominal.pose[f"value {name}"] - along[[-1]]
+        reached = base + total(slopes[name] * allowed, axis=-1)
         bounds[name] = (float(np.squeeze(reached.low)), float(np.squeeze(reached.high)))
-    return bounds
+    return bounds, slopes
 
 
 def _coordinates(record: MechanismRecord, platform: Placed) -> dict[str, Any]:
