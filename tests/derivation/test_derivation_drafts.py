@@ -1,5 +1,7 @@
 """Kinds that drafts have: rods oblique to their hinges, several sliders on a platform that turns."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -26,6 +28,13 @@ from assur.topology.notation import parse_chains
 from derived_points import derived_inputs, derived_points, inputs_near_home
 
 OBLIQUE = {"tsai": "R[y] R[y] P(4R)[x] R[y]", "3-PRPaR": "P[z] R[y] P(4R)[x] R[y]"}
+CRANK = "R[y] P(4R)[x] R[y] R[y]"
+CRANKED = {
+    "three limbs": (["--limb", CRANK], (10.0, 20.0, 250.0), 64),
+    "two drives in a limb": (
+        ["--chain", CRANK, "--chain", "C[x] R[x] R[x]", "--actuate", "1.1,1.3,2.1"], (10.0, 20.0, -300.0), 8,
+    ),
+}  # fmt: skip
 SLIDING = {"3-RRP": "R[z] R[z] P[x]", "3-PRP": "P[y] R[z] P[x]"}
 LOOPED = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 UNLIKE = {
@@ -108,6 +117,58 @@ def test_rods_oblique_to_their_hinges_are_verified(limb, tmp_path, capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "direct: derivation verified: 2 branches" in said
     assert "inverse: derivation verified: 8 branches" in said
+
+
+@pytest.mark.parametrize(("limbs", "pose", "count"), [
+    pytest.param(*own, marks=pytest.mark.deep if own[-1] > 8 else (), id=name) for name, own in CRANKED.items()
+])  # fmt: skip
+def test_rods_oblique_to_hinges_on_driven_cranks_are_on_both_sides_as_in_the_joint_graph(limbs, pose, count, tmp_path):
+    file = tmp_path / "own.toml"
+    assert main(["new", str(file), *limbs]) == 0
+    record = load_record(file)
+    solution = analytic_solution(record, "inverse")
+    assert solution.closes()
+    assert [*left_out(solution.placed, solution.loops.cranks)] == []
+    turns = np.array([driven.coordinate.kind == "angle" for driven in record.inputs])
+    derived, closed = (
+        np.array([[*np.exp(1j * own[turns]), *own[~turns]] for own in map(np.asarray, rows)])
+        for rows in (derived_inputs(record, np.array(pose)), inverse(record, pose).inputs)
+    )
+    assert len(derived) == len(closed) == solution.branches == count
+    gaps = np.max(np.abs(derived[:, None] - closed), axis=2)
+    assert np.max(np.min(gaps, axis=0)) < APART
+    assert np.max(np.min(gaps, axis=1)) < APART
+
+
+@pytest.mark.deep
+def test_a_crank_with_a_rod_oblique_to_its_hinge_has_a_closed_form_and_is_proved(tmp_path, capsys):
+    file, proof = tmp_path / "mechanism.toml", tmp_path / "d.json"
+    assert main(["new", str(file), *CRANKED["two drives in a limb"][0]]) == 0
+    assert main(["derive", str(tmp_path), "-o", str(tmp_path / "closed_form.py")]) == 0
+    assert problems(load_record(tmp_path), IN_FULL)[0] == ()
+    capsys.readouterr()
+    assert main(["derive", str(file), "--prove", "--json"]) == 0
+    proof.write_text(capsys.readouterr().out)
+    assert main(["verify", str(proof), "--mechanism", str(file)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "direct: derivation verified: 4 branches" in said
+    assert "inverse: derivation verified: 8 branches" in said
+
+
+@pytest.mark.deep
+def test_a_proof_without_the_other_side_of_a_crank_is_refused(tmp_path, capsys):
+    """An equation of how a rod leans that is another is none of the mechanism's."""
+    file, proof = tmp_path / "own.toml", tmp_path / "d.json"
+    assert main(["new", str(file), *CRANKED["two drives in a limb"][0]]) == 0
+    capsys.readouterr()
+    assert main(["derive", str(file), "--problem", "inverse", "--prove", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    loops, name = document["problems"][0]["proof"]["loops"], "a1_linkA"
+    (leaning,) = [own for own, text in loops.items() if f"cos_{name}" in text]
+    loops[leaning] = loops[leaning].replace(f"cos_{name}", f"2*cos_{name}")
+    proof.write_text(json.dumps(document))
+    assert main(["verify", str(proof), "--mechanism", str(file)]) != 0
+    assert "refused" in capsys.readouterr().out
 
 
 def test_a_draft_with_sliders_on_its_platform_has_a_closed_form_that_its_joint_graph_confirms(tmp_path):

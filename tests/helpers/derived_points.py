@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import sympy
 
+from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.solution import analytic_solution
 from assur.derivation.symbols import circle_of
 from assur.kinematics.home import home_values
@@ -33,14 +34,21 @@ def derived_points(record, inputs):
 
 
 def derived_inputs(record, pose):
-    """Printed inputs, lengths (n,), of each real branch of the inverse problem at a pose of lengths (m,)."""
+    """Printed inputs (n,), angles in rad, of each real branch of the inverse problem at a pose of lengths (m,)."""
     solution = analytic_solution(record, "inverse")
     given = {
         sympy.Symbol(name, real=True): float(value) for name, value in zip(record.platform.pose, pose, strict=True)
     }
+    lengths = solution.loops.lengths
+    if all(own.coordinate.index in lengths for own in record.inputs):
+        formulas = [own.printed(lengths[own.coordinate.index]) for own in record.inputs]
+    else:
+        formulas = ClosedFormFormulas(solution, solution, {}).input_pairs
     for values in real_branches(solution, given):
-        lengths = solution.loops.lengths
-        yield [own.printed(values(lengths[own.coordinate.index])) for own in record.inputs]
+        yield [
+            np.arctan2(values(part[1]), values(part[0])) if isinstance(part, tuple) else values(part)
+            for part in formulas
+        ]
 
 
 def real_branches(solution, given):

@@ -154,7 +154,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         dict(_results(solution)), solution.group.sentence if solution.group else "",
         square_roots="yes" if solution.eliminant is None else "no" if _no_tower(solution) else "open",
         components=_components(solution), sides=solution.placed.sides,
-        left_out=(*left_out(solution.placed),),
+        left_out=(*left_out(solution.placed, solution.loops.cranks),),
         vanish_at_home=tuple(map(str, conditions_at_home(solution))),
     )  # fmt: skip
 

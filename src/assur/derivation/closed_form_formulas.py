@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 
 from assur.derivation.circle_pairs import PairEliminant
-from assur.derivation.direct_pose import direct_rest, of_triangle, turned_by, upright
+from assur.derivation.direct_pose import direct_rest, hinge_angles, of_triangle, turned_by, upright
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
 from assur.derivation.linear import ONE, tidy
@@ -268,6 +268,10 @@ class ClosedFormFormulas:
             values |= dict(zip(printed, own, strict=True)) if isinstance(printed, tuple) else {printed: own}
         for name in posed:  # of the platform's own angle
             values |= dict(zip(turned_by(self.direct, name), circle_of(name), strict=True))
+        values |= {
+            symbol: self.in_unknowns(self.direct, own).subs(values)
+            for symbol, own in hinge_angles(self.direct, self.inverse)
+        }
         return {symbol: own for symbol, own in values.items() if symbol not in self.unknowns}
 
     @cached_property

@@ -65,10 +65,9 @@ class ClosedFormMeanings:
             if value in part.conditions or (three is not None and value in three.conditions):
                 return own.condition(part, value)
         if (rod := self.formulas.joints.leaning.get(value)) is not None:
-            lines = self.reach["inverse"].lines
-            direction = next(own for own in lines.loops.directions if own.name == rod.name)
-            text = "{} points too far along {}" if value == rod.room else "{} points along {}"
-            return phrase(text, lines.name(direction), NamedDirection(rod.axis))
+            own = self.reach["inverse"]
+            direction = next(each for each in own.lines.loops.directions if each.name == rod.name)
+            return own.leaning(direction, rod.axis, too_far=value == rod.room)
         if value in (TILT, UPRIGHT):
             return phrase(RIGHT_ANGLE)
         return self._upright(next(tilt for tilt in self.formulas.joints.tilts if name.endswith(tilt.name[5:])))

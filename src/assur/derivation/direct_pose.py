@@ -10,11 +10,12 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.platform_rotation import platform_rotation
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
+from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.joints.steps import about
 from assur.kinematics.modes import Problem
 from assur.model.pose import ANGLES, LENGTHS
-from assur.numerics.vectors import dot, product, transposed
+from assur.numerics.vectors import Matrix, Vector, apply, cross, dot, product, scaled, subtract, transposed
 
 Pair = tuple[sympy.Expr, sympy.Expr]
 TILT = sympy.Symbol("tilt", real=True)
@@ -36,6 +37,8 @@ def direct_rest(direct: AnalyticSolution, inverse: AnalyticSolution) -> Iterator
         if direction.kind == "circle" and not known & {*direction.unknowns}:
             turned = zip(direction.unknowns, _turn_in_direct(direct, inverse, direction), strict=True)
             yield from ((unknown, own) for unknown, own in turned if unknown != own)
+        elif direction.kind == "rod" and not known & {*direction.unknowns}:
+            yield from zip(direction.unknowns, _line_in_direct(direct, inverse, direction), strict=True)
     named = dict(zip(LENGTHS, direct.point, strict=True))
     for name in record.platform.pose:
         if name in named:
@@ -72,16 +75,50 @@ def _turn_in_direct(direct: AnalyticSolution, inverse: AnalyticSolution, directi
     own, other = inverse.placed.links[link], direct.placed.links[link]
     if own.axis is None or other.rod is not None:
         raise NotDerivedError(f"the angle of {link} in the direct problem")
-    rotation = other.constant
     if other.triangle is not None:
         return _left_out_of_triangle(direct, link)
-    if other.axis is not None:
-        circle = next(part for part in direct.loops.directions if link in part.links)
-        rotation = product(about(other.axis, *circle.unknowns), rotation)
-    turned = product(rotation, transposed(own.constant))
+    turned = product(_turn(direct, link), transposed(own.constant))
     cosine = (sum(turned[k][k] for k in range(3)) - 1) / sympy.Integer(2)
     across = (turned[2][1] - turned[1][2], turned[0][2] - turned[2][0], turned[1][0] - turned[0][1])
     return sympy.simplify(cosine), sympy.simplify(dot(own.axis, across) / sympy.Integer(2))
+
+
+def _turn(direct: AnalyticSolution, link: str) -> Matrix:
+    """The rotation of a link that is fixed, or on a circle."""
+    own = direct.placed.links[link]
+    if own.axis is None:
+        return own.constant
+    circle = next(part for part in direct.loops.directions if link in part.links)
+    return product(about(own.axis, *circle.unknowns), own.constant)
+
+
+def _line_in_direct(direct: AnalyticSolution, inverse: AnalyticSolution, rod: UnknownDirection) -> Vector:
+    """The direction of a rod of the inverse problem, on whose hinge an input is given in the direct one.
+
+    Errors: NotDerivedError.
+    """
+    link = rod.links[0]
+    own, other = inverse.placed.links[link], direct.placed.links[link]
+    if own.line is None or other.rod is not None or other.triangle is not None or other.second is not None:
+        raise NotDerivedError(f"the direction of {link} in the direct problem")
+    x, y, z = apply(_turn(direct, link), apply(transposed(own.constant), own.line))
+    return tuple(sympy.factor_terms(sympy.simplify(part)) for part in (x, y, z))
+
+
+def hinge_angles(direct: AnalyticSolution, inverse: AnalyticSolution) -> Iterator[tuple[sympy.Symbol, sympy.Expr]]:
+    """Cosine and sine of rods that turn about hinges which inputs place, by the inputs and the rods' directions."""
+    for turn in direct.loops.directions:
+        link = turn.links[0]
+        own, other = direct.placed.links[link], inverse.placed.links[link]
+        if turn.kind != "circle" or own.axis is None or other.line is None or other.hinge is None:
+            continue
+        rod = next(part for part in inverse.loops.directions if link in part.links)
+        start = apply(own.constant, apply(transposed(other.constant), other.line))
+        across = subtract(start, scaled(own.axis, dot(own.axis, start)))
+        level = 1 - sympy.simplify(dot(other.line, other.hinge)) ** 2
+        vectors = {turn.unknowns[0]: across, turn.unknowns[1]: cross(own.axis, across)}
+        shares = {symbol: sympy.expand(dot(rod.unknowns, vector) / level) for symbol, vector in vectors.items()}
+        yield from shorter(shares, direct.symbols.circles, direct.symbols.witness).items()
 
 
 def _left_out_of_triangle(direct: AnalyticSolution, link: str) -> Pair:

@@ -197,7 +197,7 @@ def _velocities(own: PrintedVelocities) -> Iterator[str]:
 def _example(own: PrintedProblem) -> Iterator[str]:
     example, solution = own.example, own.written.solution
     held = CLOSE[own.closes]
-    omitted = [*left_out(solution.placed)]
+    omitted = [*left_out(solution.placed, solution.loops.cranks)]
     held += ", but for what is left out" if omitted else ""
     yield f"There {'is one branch' if solution.branches == 1 else f'are {solution.branches} branches'}; {held}."
     yield from (f"Left out: {plain(text)}." for text in omitted)

@@ -260,9 +260,17 @@ class _Joints:
             lean = dot(own.line or (0, 0, 0), own.hinge)
             lean = sympy.Integer(0) if witness.is_zero(lean) else sympy.simplify(lean)
             level = sympy.sqrt(sympy.factor_terms(sympy.simplify(1 - lean**2)))
+            crank = next((turned for turned in self.solution.loops.cranks if self._turns(turned, own)), None)
+            if crank is not None:
+                c, s = crank.unknowns
+                k, t = (c * ahead + s * beside) / level, along / level
             pointings[own.rod] = Pointing((c, s), (k, t), ahead, beside, along, back, lean, level, own.axis)
-        self.pointings += pointings.values()
+            self.pointings += [] if crank is not None else [pointings[own.rod]]
         return pointings
+
+    def _turns(self, circle: UnknownDirection, rod: Orientation) -> bool:
+        """Whether a circle is that of what carries a rod."""
+        return self.solution.placed.links[circle.links[0]].circle == rod.circle
 
     def _rod(self, number: int) -> UnknownDirection:
         links = self.solution.placed.links

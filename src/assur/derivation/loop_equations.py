@@ -60,6 +60,8 @@ class LoopEquations:
         framed: circles of links in whose frame loops are written, as several joints slide on each.
         beside: that of the platform's point, along the product of two sides.
         oblique: length of a slider oblique to the axis about which it turns -> its symbol in what turns. Both are one.
+        cranks: circle of a link that carries a rod on a hinge, which an input turns and which is in no loop -> linear
+            equations in it, as that rod leans on its hinge.
     """
 
     forms: tuple[Form, ...]
@@ -73,6 +75,7 @@ class LoopEquations:
     framed: tuple[UnknownDirection, ...] = ()
     oblique: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
     beside: Vector = (0, 0, 0)
+    cranks: Mapping[UnknownDirection, tuple[Form, ...]] = field(default_factory=dict)
 
     @property
     def axes(self) -> int:
@@ -131,10 +134,11 @@ class _Loops:
         x, y, z = (self._form(part, directions) for part in platform)
         axes = [(form, own) for row, own in shared if (form := self._form(row, directions))]
         own = [form for form in forms if form]
+        cranks = self._cranks(directions)
         carriers = tuple(own for own in directions if own in self._carriers)
         return LoopEquations(
             (*(form for form, _ in axes), *own),
-            tuple(directions),
+            (*directions, *cranks),
             dict(self.lengths),
             (x, y, z),
             {length: own for length, own in self.strokes.items() if own not in framed},
@@ -144,7 +148,22 @@ class _Loops:
             framed,
             dict(self.oblique),
             beside,
+            cranks,
         )
+
+    def _cranks(self, used: Sequence[UnknownDirection]) -> dict[UnknownDirection, tuple[Form, ...]]:
+        """Circles of which an input says something, and no loop: of links that carry rods."""
+        if self.symbols.problem == "direct":
+            return {}
+        joints = [self.record.joints[driven.coordinate.joint] for driven in self.record.inputs]
+        driven = {link for joint in joints for link in (joint.parent, joint.child)}
+        turned = {own.circle for link, own in self.placed.links.items() if link in driven}
+        rods = [own for own in used if own.kind == "rod"]
+        cranks: dict[UnknownDirection, tuple[Form, ...]] = {}
+        for number, circle in self.carried.circles.items():
+            if number in turned and circle not in used and (rows := self.carried.leanings([*rods, circle])):
+                cranks[circle] = tuple(form_of(row, circle.unknowns, self.symbols.witness) for row in rows)
+        return cranks
 
     def _framed(self) -> tuple[UnknownDirection, ...]:
         """Circles of links on which several joints slide."""

@@ -8,6 +8,7 @@ import sympy
 
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.trigonometric import shorter
 from assur.numerics.vectors import Vector
 
 
@@ -38,7 +39,8 @@ class NamedDirections:
 
     def vector(self, vector: Vector) -> Vector:
         """A vector, its components that are sums by names; those in which anything is unknown stay as they are."""
-        x, y, z = (self._name(sympy.expand(part)) for part in vector)
+        parts = {sympy.Symbol(axis): sympy.expand(part) for axis, part in zip("xyz", vector, strict=True)}
+        x, y, z = map(self._name, shorter(parts, self._symbols.circles, self._symbols.witness).values())
         return x, y, z
 
     def _name(self, part: sympy.Expr) -> sympy.Expr:

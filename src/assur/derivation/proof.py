@@ -56,6 +56,8 @@ class _Proof:
         self.names = [f"loop{k}" for k in range(1, len(forms) + 1)]
         self.rows = dict(sorted(zip(self.names, forms, strict=True), key=lambda row: len(row[1])))
         instead = {vector.circle: vector.direction for vector in self.vectors}
+        cranks = [(crank, form) for crank, forms in self.loops.cranks.items() for form in forms]
+        self.leanings = {f"loop{k}": own for k, own in enumerate(cranks, start=len(forms) + 1)}
         self.directions = [instead.get(own, own) for own in self.loops.directions]
         self.fixed = [length for length in self.loops.lengths.values() if length not in self.loops.strokes]
 
@@ -66,6 +68,7 @@ class _Proof:
         sets = [self._set(k, part) for k, part in enumerate(self.solution.sets)]
         lengths = self._lengths()
         loops = {name: str(value_of(form)) for name, form in zip(self.names, self.loops.forms, strict=True)}
+        loops |= {name: str(value_of(form)) for name, (_, form) in self.leanings.items()}
         return DerivationProof(
             {str(own.symbol): str(own.formula) for own in self.solution.placed.named.definitions},
             tuple(self._orientations()),
@@ -74,7 +77,7 @@ class _Proof:
             {str(own): str(formula) for vector in self.vectors for own, formula in _components(vector)},
             {unit(own): str(own.quadric) for own in self.loops.directions},
             loops,
-            dict(zip(self.names, map(_axis, self.loops.shared), strict=False)),
+            dict(zip(self.names, map(_axis, self.loops.shared), strict=False)) | dict(self._hinges()),
             tuple(sets),
             lengths,
         )
@@ -86,6 +89,7 @@ class _Proof:
         after = [vector.circle for vector in self.vectors if not done & {*vector.direction.unknowns}]
         left = [own for direction in (*self.directions, *after) for own in direction.unknowns if own not in done]
         rows = {name: self._within(form, (*self.fixed, *left)) for name, form in self.rows.items()}
+        rows |= {name: form for name, (crank, form) in self.leanings.items() if crank in part.directions}
         span = LinearSpan(rows, left, self.witness, self.fixed)
         if part.eliminant is not None:
             coupled = _coupled(part, part.eliminant, span, self.vectors, self.witness)
@@ -118,6 +122,18 @@ class _Proof:
             circle = circles.get(own.circle) if own.circle is not None else None
             second = used.get(link) if own.second is not None else None
             yield replace(_orientation(link, own, circle, rods.get(link), second), triangle=self._triangle(link))
+
+    def _hinges(self) -> Iterator[tuple[str, ProvedAxis]]:
+        """Of each equation of a crank the hinge on which its rod leans, along the rod."""
+        links, rods = self.solution.placed.links, [own for own in self.loops.directions if own.kind == "rod"]
+        for name, (crank, form) in self.leanings.items():
+            used = {symbol for part in form.values() for symbol in part.free_symbols}
+            rod = next(own for own in rods if {*own.unknowns} & used)
+            joint = next(name for name, own in self.solution.symbols.record.joints.items()
+                         if {own.parent, own.child} & {*rod.links}
+                         and any(links[end].circle == links[crank.links[0]].circle and links[end].rod is None
+                                 for end in (own.parent, own.child)))  # fmt: skip
+            yield name, ProvedAxis(joint, _vector(rod.unknowns))
 
     def _triangle(self, link: str) -> ProvedTriangle | Absent:
         own = self.solution.placed.links[link].triangle

@@ -16,7 +16,16 @@ from assur.derivation.circle_pairs import PairEliminant
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.linear import Form
 from assur.derivation.link_lines import LinkLine, LinkLines
-from assur.derivation.phrases import GeometricPhrase, NamedJoint, NamedLink, PhrasePart, joined, listed, phrase
+from assur.derivation.phrases import (
+    GeometricPhrase,
+    NamedDirection,
+    NamedJoint,
+    NamedLink,
+    PhrasePart,
+    joined,
+    listed,
+    phrase,
+)
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.joint_graph.tree import joint_graph
@@ -50,6 +59,10 @@ class ReachMeanings:
         return {
             root.radicand: _Meeting(self, part).radicand(root) for part in self.solution.sets for root in part.roots
         }
+
+    def leaning(self, rod: UnknownDirection, axis: Vector, too_far: bool = False) -> GeometricPhrase:
+        """What it means that a rod points along the axis of what carries it, or too far along it to lean as it does."""
+        return phrase(f"{{}} points{' too far' * too_far} along {{}}", self.lines.name(rod), NamedDirection(axis))
 
     def condition(self, part: SolvedSet, condition: sympy.Expr) -> GeometricPhrase:
         """What it means that a condition of a set fails."""
@@ -93,8 +106,14 @@ class _Meeting:
         symbols = meanings.solution.symbols
         self.poses = symbols.record.platform.link if symbols.problem == "inverse" else None
         self.own = {own: self.lines.of(own) for own in part.directions}
+        self.meanings, loops = meanings, meanings.solution.loops
+        forms = [form for own in part.directions for form in loops.cranks.get(own, ())]
+        used = {symbol for form in forms for share in form.values() for symbol in share.free_symbols}
+        self.rods = [own for own in loops.directions if own.kind == "rod" and {*own.unknowns} & used]
 
     def radicand(self, root: Root) -> GeometricPhrase:
+        if self.rods:
+            return self._leaning(too_far=True)
         stroke = self._stroke(root.radicand)
         if stroke is not None:
             if len(ends := self._ends(stroke)) > PAIR:  # the vector joins two of them
@@ -105,7 +124,13 @@ class _Meeting:
                           *names, *([self.lines.name(stroke)] if beside else []))  # fmt: skip
         return self._alone() if len(self.part.directions) == 1 else self._together()
 
+    def _leaning(self, too_far: bool = False) -> GeometricPhrase:
+        axis = self.meanings.solution.placed.links[self.part.directions[0].links[0]].axis
+        return self.meanings.leaning(self.rods[0], axis or (0, 0, 0), too_far)
+
     def condition(self, condition: sympy.Expr) -> GeometricPhrase:
+        if self.rods:
+            return self._leaning()
         stroke = self._stroke(condition)
         if stroke is not None:
             if len(ends := self._ends(stroke)) > PAIR:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import sympy
 
 from assur.derivation.constraint_reasons import ConstraintReason
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.numerics.vectors import Vector, dot
 
 
@@ -25,9 +26,13 @@ def sentences(placed: LinkOrientations) -> Iterator[str]:
         yield f"{reason.link} hangs on {reason.carrier} by {first} and by {second}, so it does not turn against it"
 
 
-def left_out(placed: LinkOrientations) -> Iterator[str]:
+def left_out(placed: LinkOrientations, cranks: Collection[UnknownDirection] = ()) -> Iterator[str]:
     """What no formula says: a sentence for each link that is taken to stand as at home, though its axes close another
     way too, and for each rod oblique to its hinge, which is real for a part of all directions alone, in two ways.
+
+    Args:
+        placed: the orientations.
+        cranks: circles of links that carry such rods and are solved for, so that both ways are among the branches.
 
     >>> from assur.derivation.solution import analytic_solution
     >>> from assur.model.registry import load_record
@@ -38,14 +43,16 @@ def left_out(placed: LinkOrientations) -> Iterator[str]:
         if reason.other_way is not None:
             own = f"{reason.link} is taken to stand against {reason.carrier} as at home"
             yield f"{own}; it may also stand turned {_turned(*reason.other_way)} about {direction(reason.first)}"
-    yield from _oblique(placed)
+    yield from _oblique(placed, {placed.links[own.links[0]].circle for own in cranks})
 
 
-def _oblique(placed: LinkOrientations) -> Iterator[str]:
+def _oblique(placed: LinkOrientations, solved: Collection[int | None]) -> Iterator[str]:
     """Rods oblique to their hinges: where they are real."""
     said = set[int]()
     for link, own in placed.links.items():
         if own.rod is None or own.rod in said or own.hinge is None or own.axis is None or own.line is None:
+            continue
+        if own.circle in solved:
             continue
         said.add(own.rod)
         lean = sympy.simplify(dot(own.line, own.hinge))

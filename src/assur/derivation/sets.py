@@ -10,7 +10,7 @@ from itertools import combinations
 
 import sympy
 
-from assur.derivation.linear import Form, divided, rank, solved, sparse
+from assur.derivation.linear import Form, divided, never_zero, rank, solved, sparse
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
@@ -41,7 +41,7 @@ def next_set(
             if whole - rank(forms, others, witness) >= more + sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
                 kept = _independent(own, [unknown for direction in chosen for unknown in direction.unknowns], witness)
-                return chosen, kept if more else sparse(kept, witness, everywhere=True)
+                return chosen, kept if more else sparse([*map(_whole, kept)], witness, everywhere=True)
     names = ", ".join(direction.name for direction in left)
     if blocked := [own.name for own in after if any({*own.unknowns} & form.keys() for form in forms)]:
         raise NotDerivedError(
@@ -75,6 +75,12 @@ def _independent(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witnes
         if rank([*kept, form], unknowns, witness) > len(kept):
             kept.append(form)
     return kept
+
+
+def _whole(form: Form) -> Form:
+    """A form without denominators that may vanish: elimination divides by what is given, as the sine of an input."""
+    below = [sympy.fraction(part)[1] for part in form.values()]
+    return form if all(map(never_zero, below)) else divided(form)
 
 
 def _length(form: Form) -> tuple[int, int]:

@@ -56,7 +56,7 @@ class _Order:
         self.vectors, self.carriers = vectors, loops.carriers
         self.taken = _names(symbols.record) | {own.symbol.name for own in problem.placed.named.definitions}
         instead = {vector.circle: vector.direction for vector in vectors}
-        self.every = [instead.get(own, own) for own in loops.directions]
+        self.every = [instead.get(own, own) for own in loops.directions if own not in loops.cranks]
         self.left = [*self.every]
 
     def sets(self) -> tuple[SolvedSet, ...]:
@@ -71,6 +71,8 @@ class _Order:
             sets.append(with_strokes(part, self.vectors, number, self.witness, self.taken))
             self.left = [direction for direction in self.left if direction not in part.directions]
             self.forms = self._rest(self.forms)
+        for crank, equations in self.problem.loops.cranks.items():
+            sets.append(self._solved(len(sets) + 1, (crank,), [*equations]))
         if sum(own.eliminant is not None for own in sets) > 1:
             names = " and ".join(own.name for own in sets if own.eliminant)
             last = sets.pop()

@@ -92,7 +92,8 @@ class AnalyticSolution:
         for own in self.lengths:
             witness.define(own.symbol, own.formula)
         quadrics = (direction.quadric for direction in self.loops.directions)
-        return all(map(witness.is_zero, (*map(value_of, self.loops.forms), *quadrics)))
+        leanings = (form for forms in self.loops.cranks.values() for form in forms)
+        return all(map(witness.is_zero, (*map(value_of, (*self.loops.forms, *leanings)), *quadrics)))
 
     def drawn(self, seed: int, signs: Sequence[int]) -> ModularWitness:
         """A witness of a branch, at dimensions that stay what they are when all is drawn anew."""

@@ -123,6 +123,7 @@ class _Velocities:
     def equations(self) -> VelocityEquations:
         driven = [*self._driven()]
         loops = sparse(self.solution.loops.forms, self.witness, everywhere=True)
+        loops += [form for forms in self.solution.loops.cranks.values() for form in forms]
         forms = along_slides(map(self._rate, loops), self.passive, self.circles, self.witness)
         values, rows = solved(forms, self.passive, self.witness)
         for direction in self.solution.loops.directions:

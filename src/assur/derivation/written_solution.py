@@ -57,7 +57,7 @@ class WrittenSolution(WrittenPolynomial):
     def _blocks(self, part: SolvedSet) -> Iterator[Block]:
         joints = ", ".join(f"${joint_letter(joint)}$" for joint in self.joints(part))
         unknown = listed([f"${self.printed.angle(own)}$" for own in part.directions])
-        yield f"The chain of {joints}. Unknown: {unknown}. The loop equations in which nothing else is unknown are"
+        yield f"The chain of {joints}. Unknown: {unknown}. {self._given_by(part)}"
         yield tuple(self._equation(form) for form in part.equations)
         steps = SetSteps(part)
         if steps.known:
@@ -65,6 +65,12 @@ class WrittenSolution(WrittenPolynomial):
             yield tuple(self.line(own.symbol, own.formula) for own in steps.known)
         yield from self._elimination(part, steps)
         yield from self._choice(part)
+
+    def _given_by(self, part: SolvedSet) -> str:
+        """What the equations of a set say."""
+        if part.directions[0] not in self.solution.loops.cranks:
+            return "The loop equations in which nothing else is unknown are"
+        return "The rod that hangs there by a hinge stands at the same angle to its axis all the time, so that"
 
     def joints(self, part: SolvedSet) -> list[str]:
         """Joints of the links that a set solves for, the parts of a parallelogram as one."""

@@ -88,7 +88,7 @@ def _problem(own: PrintedProblem) -> Section:
     results: list[Result | Section] = []
     if reasons := [*sentences(solution.placed)]:
         results.append(Facts("Links that do not turn", tuple((str(k), text) for k, text in enumerate(reasons, 1))))
-    if omitted := [*left_out(solution.placed)]:
+    if omitted := [*left_out(solution.placed, solution.loops.cranks)]:
         results.append(Facts("Left out", tuple((str(k), text) for k, text in enumerate(omitted, 1))))
     results += [formulas for part in own.written.parts() for formulas in _formulas(part)]
     return Section(

@@ -31,11 +31,6 @@ def has_quaternion(mechanism: FileMechanism, problem: str) -> bool:
     return problem == "inverse" and {*QUATERNION} <= {*mechanism.pose}
 
 
-def platform_turns(mechanism: FileMechanism, proof: Mapping[str, Any]) -> bool:
-    """Whether a proof has it that the platform turns about a direction."""
-    return any(own["link"] == mechanism.platform and own["kind"] == "circle" for own in proof["orientations"])
-
-
 def of_quaternion(w: Any, x: Any, y: Any, z: Any) -> Matrix:
     """The rotation of a unit quaternion."""
 
@@ -64,7 +59,7 @@ class FileAssembly:
         names: values of the parameters.
         given: lengths and a unit quaternion by their names, angles as `cos_<name>` and `sin_<name>`.
         zero: whether a number vanishes.
-        turning: whether the platform may turn by the one angle that the pose leaves out, which is zero else.
+        orientations: as claimed: the platform may turn by the one angle that the pose leaves out, which is zero else.
 
     Attributes:
         hops: what is said of orientations.
@@ -79,7 +74,7 @@ class FileAssembly:
         names: Mapping[str, Any],
         given: Mapping[str, Any],
         zero: IsZero,
-        turning: bool = False,
+        orientations: Sequence[Mapping[str, Any]],
     ) -> None:
         self.graph, self.problem, self.given, self.zero = Graph(mechanism, numbers, names), problem, given, zero
         self.mechanism, self.sliding = mechanism, dict[str, Any]()
@@ -103,6 +98,7 @@ class FileAssembly:
             self.hops.append(Hop(mechanism.base, mechanism.platform, turned))
         if problem == "inverse" and {*ANGLES} & {*mechanism.pose}:
             left_out = [name for name in ANGLES if name not in mechanism.pose]
+            turning = any(own["link"] == mechanism.platform and own["kind"] == "circle" for own in orientations)
             free = ANGLES.index(left_out[0]) if turning and len(left_out) == 1 else len(ANGLES)
             before, after = self._turned(ANGLES[:free]), self._turned(ANGLES[free + 1 :])
             axis = apply(before, ONE[2 - free]) if free < len(ANGLES) else None

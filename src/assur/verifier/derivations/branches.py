@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion, platform_turns
+from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
 from assur.verifier.derivations.turning import same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
@@ -73,8 +73,8 @@ class _DrawnBranches:
         if has_quaternion(mechanism, problem["problem"]):
             given |= zip(QUATERNION, _unit_quaternion(*(field.uniform() for _ in range(3))), strict=True)
         self.values |= given
-        turning = platform_turns(mechanism, problem["proof"])
-        self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero, turning)
+        claims = problem["proof"]["orientations"]
+        self.assembly = FileAssembly(mechanism, problem["problem"], field, self.names, given, _zero, claims)
 
     def closing(self, conditions: Sequence[str]) -> int:
         """How many branches close, of as many as are looked at."""
@@ -151,6 +151,7 @@ class _DrawnBranches:
         turns = {own["link"]: self.assembly.claimed(own, claims, read) for own in claims}
         sliding = {name: values[own] for name, own in proof["sliding"].items()}
         gaps, _ = self.assembly.loops(turns, values, sliding)
+        gaps += [own.leaning(values, _zero) for own in turns.values()]
         if not all(map(_zero, gaps)):
             raise RefusedError(f"a branch does not close every loop (modulo {self.field.p})")
         rotations = {link: own.rotation(values) for link, own in turns.items()}

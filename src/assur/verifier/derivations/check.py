@@ -15,14 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from assur.verifier.derivations.assembly import (
-    LENGTHS,
-    QUATERNION,
-    FileAssembly,
-    given_names,
-    has_quaternion,
-    platform_turns,
-)
+from assur.verifier.derivations.assembly import LENGTHS, QUATERNION, FileAssembly, given_names, has_quaternion
 from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.known_formulas import KnownFormulas, Multiples
 from assur.verifier.derivations.orientations import OrientationCheck
@@ -134,8 +127,8 @@ class _ProblemCheck(KnownFormulas):
         super().__init__(numbers, {**parameters, **given}, own.positive)
         self.conditions: list[str] = []
         self.circles: set[str] = set()
-        turning = platform_turns(own, self.proof)
-        self.assembly = FileAssembly(own, self.name, numbers, parameters, given, self.zero, turning)
+        claims = self.proof["orientations"]
+        self.assembly = FileAssembly(own, self.name, numbers, parameters, given, self.zero, claims)
         graph = self.assembly.graph
         axes = [part for joint in graph.joints.values() for axis in (*joint.axes, *joint.turn) for part in axis]
         self.allowed += divisors(part for part in axes if isinstance(part, Term))  # a direction has a length
@@ -228,7 +221,9 @@ class _ProblemCheck(KnownFormulas):
                 raise RefusedError(f"{name} is not the mechanism's: another mechanism or version")
 
     def _shared(self, row: Term, claim: Mapping[str, Any], turns: Mapping[str, ClaimedTurn]) -> bool:
-        """Whether an equation vanishes since an axis of a joint is one in both of its links, either of them first."""
+        """Whether it vanishes, as an axis of a joint is one in both links, either first, or at one angle to a rod."""
+        if any(self.zero(row - term(own.leaning(self.known, self.zero))) for own in turns.values()):
+            return True
         x, y, z = map(self.checked, claim["along"])
         for hop in self.assembly.hops:
             if hop.axis is None or hop.joint != claim["joint"] or not {hop.start, hop.end} <= turns.keys():

@@ -206,6 +206,13 @@ class ClaimedTurn:
         along = scaled((x, y, z), share)
         return along if zero(beside) else add(along, scaled(self._turned(hinge, values, zero), beside))
 
+    def leaning(self, values: Mapping[str, Any], zero: IsZero) -> Any:
+        """What vanishes, as a rod stands at one angle to the hinge on a link that turns; 0 of all others."""
+        if self.rod is None or self.line is None or self.hinge is None or self.circle is None:
+            return 0
+        x, y, z = (values[name] for name in self.rod)
+        return plus(dot((x, y, z), self._turned(self.hinge, values, zero)), times(-1, dot(self.line, self.hinge)))
+
     def _turned(self, own: Vector, values: Mapping[str, Any], zero: IsZero) -> Vector:
         if self.kind == "carried" and self.hinge is not None:
             cosine, sine = (values[name] for name in self.second or ())
