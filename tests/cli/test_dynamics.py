@@ -130,5 +130,5 @@ def test_small_motions_about_a_pose_are_those_of_the_library(assur_cli):
     away = assur_cli("dynamics", "zeng2019", "--linear", "--pose", "0", "0", "5000", "--json")
     assert (away.code, away.json["stable"], away.json["frequencies"]) == (4, None, [])
     assert "it runs away" in assur_cli("dynamics", "zeng2019", "--linear", "--pose", "-15", "10", "400").out
-    assert "--linear: about one pose" in assur_cli("dynamics", "zeng2019", "--linear", "--forward").err
+    assert "--linear is about one pose" in assur_cli("dynamics", "zeng2019", "--linear", "--forward").err
     assert "--pose: the file" in assur_cli("dynamics", "zeng2019", "--pose", "0", "0", "400").err

@@ -99,7 +99,7 @@ def test_capacity_is_that_of_the_library(assur_cli):
 
 
 def test_capacity_takes_no_load_and_forces_a_pose(assur_cli):
-    assert "--capacity: at rest" in assur_cli("forces", "zeng2019", "--capacity", *LOAD).err
+    assert "--capacity is at rest" in assur_cli("forces", "zeng2019", "--capacity", *LOAD).err
     assert "--pose is missing" in assur_cli("forces", "zeng2019").err
 
 
@@ -152,8 +152,8 @@ def test_what_is_held_is_mapped_over_a_plane(assur_cli, tmp_path):
     ("words", "said"),
     [
         (["--map", "x,y"], "--map goes with --capacity"),
-        (["--capacity", "--map", "x,y", "--pose", "0", "224"], "without --pose"),
-        (["--capacity", "--at", "x=0"], "--at and --output go with --map"),
+        (["--capacity", "--map", "x,y", "--pose", "0", "224"], "a map is of many poses"),
+        (["--capacity", "--at", "x=0"], "--at: of a map alone"),
         (["--capacity", "--map", "x,q"], "there is: x, y"),
     ],
 )
@@ -171,4 +171,4 @@ def test_the_equation_of_motion_is_written_after_it_was_held_against_numbers(ass
     assert r"\mathbf{M}_{11} &=" in path.read_text(encoding="utf-8")
     assert "they differ by" in assur_cli("forces", "fivebar", "--latex", str(path)).out
     alone = assur_cli("forces", "fivebar", "--latex", str(path), "--pose", "0", "200")
-    assert (alone.code, "stands alone" in alone.err) == (2, True)
+    assert (alone.code, "hold for every pose" in alone.err) == (2, True)

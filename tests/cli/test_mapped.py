@@ -66,8 +66,8 @@ def test_a_person_sees_every_index_with_its_extremes_and_what_was_looked_for(ass
         ("fivebar --map x,y --nodes 1", "nodes: 1 is not"),
         ("fivebar --map x -o maps.png", "cannot draw 1 coordinates"),
         ("fivebar --map x,y -o maps.xls", "its ending is none of"),
-        ("fivebar -o maps.npz", "only maps are written"),
-        ("fivebar --map x,y --pose 0 200", "one or the other"),
+        ("fivebar -o maps.npz", "of a map alone"),
+        ("fivebar --map x,y --pose 0 200", "a map is of many poses"),
     ],
 )
 def test_bad_words_are_refused(assur_cli, words, message):

@@ -6,15 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import (
-    SHARED_DEFAULTS,
-    Box,
-    Held,
-    MechanismName,
-    Outcome,
-    Shared,
-    Stroke,
-)
+from assur.cli.options import REGION, SHARED_DEFAULTS, MechanismName, Outcome, RegionOptions, Shared
 
 
 def aspects(
@@ -25,9 +17,7 @@ def aspects(
         str | None,
         Parameter(help="Working mode, as ++-++, or all; the default of the mechanism's file if left out."),
     ] = None,
-    box: Box = (),
-    stroke: Stroke = (),
-    at: Held = (),
+    where: RegionOptions = REGION,
     finest: Annotated[
         str | None,
         Parameter(metavar="LENGTH", help="Size at which boxes are no longer cut; a share of the box if left out."),
@@ -66,5 +56,5 @@ def aspects(
     record = shared.mechanism(mechanism)
     from assur.cli import aspects_answer
 
-    asked = aspects_answer.AspectQuestion(mode, box, stroke, at, finest, start, end, output)
+    asked = aspects_answer.AspectQuestion(mode, where, finest, start, end, output)
     return aspects_answer.outcome(record, asked, shared)

@@ -11,7 +11,7 @@ from rich.console import RenderableType
 from assur.cli import exit_codes, region_question
 from assur.cli.interruption import pressed
 from assur.cli.numbers import assignments, number, numbers
-from assur.cli.options import Outcome, Shared
+from assur.cli.options import Outcome, RegionOptions, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
@@ -54,9 +54,7 @@ class AspectQuestion:
     """The words, as typed."""
 
     mode: str | None
-    box: Sequence[str]
-    stroke: Sequence[str]
-    at: Sequence[str]
+    where: RegionOptions
     finest: str | None
     start: str | None
     end: str | None
@@ -98,7 +96,7 @@ def _target(asked: AspectQuestion) -> Path | None:
 
 def _answer(record: Mechanism, asked: AspectQuestion, shared: Shared) -> Explored:
     mode = None if asked.mode == "all" else asked.mode
-    words = region_question.question(record, mode, asked.box, asked.stroke, None, (), None, asked.at)
+    words = region_question.question(record, mode, asked.where)
     finest = None if asked.finest is None else number(asked.finest, "--finest")
     modes = all_modes(record, "inverse") if asked.mode == "all" else (words.mode,)
     found = []

@@ -137,7 +137,9 @@ def _box(record: Mechanism, question: Question, text: str, most: int, shared: Sh
     box = dict(question.box)
     for name, pair in assignments([text], "--prove", example).items():
         low, high = interval(pair, f"--prove {name}", example)
-        _known(record, name)
+        _known(record, question, "--prove", name)
+        if name in question.box:
+            raise UsageError(f"--prove: {name} is given by --box too", hint="--box is for coordinates left out of it")
         box[name] = (low * coordinate_unit(record, name), high * coordinate_unit(record, name))
     box = outer_box(record, box, question.held)
     with progress("proof", shared) as step:
@@ -194,7 +196,7 @@ def _largest(record: Mechanism, question: Question, asked: ProofQuestion, shape:
     example = "x=0,y=0,z=400"
     centre = {}
     for name, text in assignments([asked.around or ""], "--around", example).items():
-        _known(record, name)
+        _known(record, question, "--around", name)
         centre[name] = number(text, f"--around {name}") * coordinate_unit(record, name)
     ratio = 1.0 if asked.ratio is None else number(asked.ratio, "--ratio")
     with progress(f"largest {shape}", shared) as step:
@@ -243,7 +245,9 @@ NOTES = {
 }
 
 
-def _known(record: Mechanism, name: str) -> None:
+def _known(record: Mechanism, question: Question, option: str, name: str) -> None:
+    if name in (question.held or ()):
+        raise UsageError(f"{option}: {name} is held", hint=f"leave {name} out of --at or of {option}")
     if name not in coordinates(record):
         raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
 

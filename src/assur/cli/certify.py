@@ -9,13 +9,12 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 
 from assur.cli.options import (
+    REGION,
     SHARED_DEFAULTS,
-    Box,
-    Held,
     MechanismName,
     Outcome,
+    RegionOptions,
     Shared,
-    Stroke,
     WorkingMode,
 )
 from assur.errors import UsageError
@@ -33,9 +32,7 @@ def certify(
         ),
     ] = "workspace",
     mode: WorkingMode = None,
-    box: Box = (),
-    stroke: Stroke = (),
-    at: Held = (),
+    where: RegionOptions = REGION,
     start: Annotated[
         str | None,
         Parameter(name="--from", metavar="X,Y,..", help="A pose, of --kind path: values in order, or NAME=VALUE."),
@@ -83,7 +80,7 @@ def certify(
     from assur.cli.region_question import question
 
     _compatible(kind, start, end, gap, resume)
-    asked = question(record, mode, box, stroke, None, (), None, at)
+    asked = question(record, mode, where)
     target = output_file(output, (".json",))
     share = None if gap is None else number(gap, "--gap")
     least, leaves = number(finest, "--finest"), whole_number(most, "--most")

@@ -6,7 +6,18 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
+from assur.cli.options import (
+    POSE,
+    SHARED_DEFAULTS,
+    Load,
+    MechanismName,
+    NoGravity,
+    Outcome,
+    PoseOptions,
+    Shared,
+    refuse,
+)
+from assur.errors import UsageError
 
 ENDINGS = (".csv", ".png", ".pdf", ".svg")
 
@@ -25,11 +36,7 @@ def dynamics(
     linear: Annotated[
         bool, Parameter(help="Small motions about --pose while the actuators hold it by forces that stay as they are.")
     ] = False,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose of --linear; home's if left out."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     load: Load = None,
     no_gravity: NoGravity = False,
     no_limits: Annotated[bool, Parameter(help="Leave strokes of inputs and limits of joints aside.")] = False,
@@ -64,18 +71,16 @@ def dynamics(
     from pathlib import Path
 
     from assur.cli.numbers import wrench
-    from assur.errors import UsageError
 
-    mode = mode or record.modes.default_working
+    mode = at.mode_of(record)
     acting = wrench(load), not no_gravity
     if linear:
         from assur.cli import linearised
 
-        if motion is not None or forward or output is not None or no_limits:
-            raise UsageError("--linear: about one pose", hint="leave out --motion, --forward, --no-limits and -o")
-        return linearised.outcome(record, pose, mode, acting)
-    if pose:
-        raise UsageError("--pose: the file of --motion says where it begins", hint="or ask for --linear")
+        other = {"motion": motion, "forward": forward, "no_limits": no_limits, "output": output}
+        refuse("--linear is about one pose", "leave it out", **other)
+        return linearised.outcome(record, at.pose_or_home(record), mode, acting)
+    refuse("the file of --motion says where it begins", "leave it out, or ask for --linear", pose=at.pose)
     if motion is None:
         raise UsageError("--motion is missing", hint="--motion motion.toml, with [harmonic], [samples] or [forces]")
     from assur.cli import timed

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from cyclopts import Parameter
-
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+from assur.cli.options import POSE, SHARED_DEFAULTS, MechanismName, Outcome, PoseOptions, Shared
 
 
 def errors(
     mechanism: MechanismName,
     /,
     *,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose, one value per coordinate."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """How errors of dimensions and of inputs move the platform, to first order.
@@ -36,11 +28,5 @@ def errors(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import errors_answer
-    from assur.cli.numbers import numbers
-    from assur.errors import UsageError
-    from assur.kinematics.answers.at_border import pose_from_border
 
-    if not pose:
-        raise UsageError("--pose is missing", hint=f"--pose {' '.join(record.platform.pose)}")
-    place = pose_from_border(record, numbers(pose, record.platform.pose, f"pose of {record.name}"))
-    return errors_answer.outcome(record, place, mode or record.modes.default_working)
+    return errors_answer.outcome(record, at.pose_of(record), at.mode_of(record))

@@ -6,18 +6,27 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Box, Held, Load, MechanismName, NoGravity, Outcome, Shared, WorkingMode
+from assur.cli.options import (
+    NO_MAP,
+    POSE,
+    SHARED_DEFAULTS,
+    Load,
+    MapOptions,
+    MechanismName,
+    NoGravity,
+    Outcome,
+    PoseOptions,
+    Shared,
+    refuse,
+)
+from assur.errors import UsageError
 
 
 def forces(
     mechanism: MechanismName,
     /,
     *,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose; with --capacity home's if left out."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     load: Load = None,
     no_gravity: NoGravity = False,
     velocity: Annotated[
@@ -31,21 +40,7 @@ def forces(
     capacity: Annotated[
         bool, Parameter(help="Which forces on the platform the actuators hold at rest within their limits.")
     ] = False,
-    plane: Annotated[
-        str | None,
-        Parameter(name="--map", metavar="X,Z", help="With --capacity: map it over these coordinates."),
-    ] = None,
-    box: Box = (),
-    at: Held = (),
-    nodes: Annotated[str, Parameter(metavar="COUNT", help="With --map: nodes along each; 40 if left out.")] = "40",
-    output: Annotated[
-        str | None,
-        Parameter(
-            name=("-o", "--output"),
-            metavar="FILE",
-            help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
-        ),
-    ] = None,
+    over: MapOptions = NO_MAP,
     latex: Annotated[
         str | None,
         Parameter(
@@ -64,8 +59,8 @@ def forces(
     gravity in the pose's rates, friction apart. Rates and accelerations are in
     the file's units; `--json` is in SI units. Exit code 2: a mass that is needed
     is not in the file. 4: the mode does not reach the pose. With --capacity:
-    which forces on the platform the actuators hold at rest, at a pose or, with
-    --map, over the workspace, and how fast they move the platform. With --latex:
+    which forces on the platform the actuators hold at rest, at a pose
+    (home's if left out) or, with --map, over the workspace, and how fast they move the platform. With --latex:
     mass matrix, bias, gravity and the actuators' forces in formulas of pose,
     rates and accelerations, by the closed form.
 
@@ -77,45 +72,35 @@ def forces(
         assur forces zeng2019 --latex motion.tex
     """
     record = shared.mechanism(mechanism)
-    from assur.cli import forced
-    from assur.cli.numbers import numbers, wrench
-    from assur.errors import UsageError
-    from assur.kinematics.answers.at_border import pose_from_border
-    from assur.model.pose import rate_names
-
-    mode = mode or record.modes.default_working
+    mode, motion = at.mode_of(record), {"velocity": velocity, "acceleration": acceleration}
+    acting = {"load": load, "no_gravity": no_gravity, **motion}
     if latex is not None:
-        if pose or capacity or load is not None or velocity or acceleration:
-            raise UsageError("--latex stands alone: formulas hold for every pose", hint="with --mode, if at all")
         from assur.cli import motion_written
 
+        refuse("formulas of --latex hold for every pose", "leave it out", pose=at.pose, capacity=capacity, **acting)
+        refuse("of a map alone", "leave it out beside --latex", **vars(over))
         return motion_written.outcome(record, mode, latex)
-    if capacity and (load is not None or no_gravity or velocity or acceleration):
-        raise UsageError("--capacity: at rest under gravity", hint="leave out --load, --no-gravity and motions")
-    if plane is not None:
-        if pose or not capacity:
-            raise UsageError("--map goes with --capacity, and without --pose", hint="--at holds coordinates of a map")
-        from assur.cli import machine_map
+    if capacity:
+        refuse("--capacity is at rest under gravity", "leave it out", **acting)
+    if over.map_ is not None:
+        from assur.cli import machine_map, mapped
 
-        asked = mode, box, (), "32"
-        return machine_map.over_plane(machine_map.FORCES, record, plane, at, asked, nodes, output, shared)
-    if box or at or output is not None:
-        raise UsageError("--box, --at and --output go with --map", hint="add --capacity --map x,z")
-    if capacity and not pose:
-        from assur.cli import borne
-        from assur.kinematics.pose import pose_of
-
-        return borne.outcome(record, pose_of(record, record.home_values), mode)
-    if not pose:
-        raise UsageError("--pose is missing", hint=f"--pose {' '.join(record.platform.pose)}")
-    place = pose_from_border(record, numbers(pose, record.platform.pose, f"pose of {record.name}"))
+        if not capacity:
+            raise UsageError("--map: of which forces?", hint="--map goes with --capacity")
+        refuse("a map is of many poses", "--at holds coordinates of a map", pose=at.pose)
+        return mapped.over_plane(machine_map.FORCES, record, mode, over, shared)
+    refuse("of a map alone", "add --capacity --map x,z, or leave it out", **vars(over))
     if capacity:
         from assur.cli import borne
 
-        return borne.outcome(record, place, mode)
-    names = rate_names(record.platform.pose)
+        return borne.outcome(record, at.pose_or_home(record), mode)
+    from assur.cli import forced
+    from assur.cli.numbers import numbers, wrench
+    from assur.model.pose import rate_names
+
+    pose, names = at.pose_of(record), rate_names(record.platform.pose)
     rates = [
         numbers(given, names, f"{what} of {record.name}") if given else [0.0] * len(names)
-        for given, what in ((velocity, "velocity"), (acceleration, "acceleration"))
+        for what, given in motion.items()
     ]
-    return forced.outcome(record, place, mode, wrench(load), not no_gravity, rates)
+    return forced.outcome(record, pose, mode, wrench(load), not no_gravity, rates)

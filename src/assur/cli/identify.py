@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Centre, MechanismName, Outcome, Shared, WorkingMode
+from assur.cli.options import SHARED_DEFAULTS, Centre, MechanismName, Outcome, Shared, WorkingMode, refuse
 
 CANDIDATES = 5
 """Poses that are drawn for each that is chosen."""
@@ -26,8 +26,9 @@ def identify(
         Parameter(metavar="COUNT", help="Instead: so many poses of the workspace's box, those that show most."),
     ] = None,
     by: Annotated[
-        str, Parameter(metavar="O1", help="With --count: the index, O1 to O5, that they are chosen by.")
-    ] = "O1",
+        str | None,
+        Parameter(metavar="O1", help="With --count: the index, O1 to O5, that they are chosen by; O1 if left out."),
+    ] = None,
     measure: Annotated[
         str | None,
         Parameter(
@@ -64,6 +65,8 @@ def identify(
     mode = mode or record.modes.default_working
     if (poses is None) == (count is None):
         raise UsageError("--poses or --count: one of them", hint="as --count 20")
+    if count is None:
+        refuse("the poses are given", "it goes with --count", by=by)
     names = tuple(name.strip() for name in measure.split(",")) if measure is not None else ()
     told = partial(identification, record, measured=names, frame=frame, centre=centre_of(centre), mode=mode)
     if count is None:
@@ -71,4 +74,4 @@ def identify(
     if not 1 <= (number := whole_number(count, "--count")) <= 10_000:
         raise UsageError(f"--count: {number}", hint="allowed: 1 to 10000")
     drawn = random_poses(record, CANDIDATES * number, mode)
-    return identified.outcome(record, told(poses=drawn[chosen(told(poses=drawn), number, by)]), mode)
+    return identified.outcome(record, told(poses=drawn[chosen(told(poses=drawn), number, by or "O1")]), mode)

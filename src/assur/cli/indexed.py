@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
 from numpy.typing import NDArray
 from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.configuration import of_modes
+from assur.cli.mapped import PlaneMap
 from assur.cli.numbers import number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -41,7 +43,12 @@ from assur.results.json_text import plain
 from assur.results.plain_text import short, with_error
 from assur.singularity.distance import distance
 from assur.singularity.verdict import modes_at
+from assur.workspace.index_maps import NODES, IndexMaps, index_maps
 from assur.workspace.region import workspace
+
+if TYPE_CHECKING:
+    from assur.figures.context import Context
+    from assur.figures.spec import Drawing
 
 Length = float | Literal["isotropic"] | None
 
@@ -60,6 +67,37 @@ def length_asked(text: str | None) -> Length:
     if value <= 0:
         raise UsageError(f"--length: {text.strip()} is not a positive length", hint="or --length isotropic")
     return value
+
+
+def maps_of(length: Length) -> PlaneMap:
+    """Maps of every index, lengths divided by a characteristic one."""
+
+    def drawn(context: Context, maps: IndexMaps) -> Drawing:
+        from assur.figures.index_maps import drawn
+
+        return drawn(context, maps)
+
+    return PlaneMap(
+        "index",
+        NODES,
+        lambda _: None,
+        lambda record, region, names, nodes, _: index_maps(
+            record, region, names, nodes=nodes, characteristic_length=length
+        ),
+        drawn,
+        _map_words,
+    )
+
+
+def _map_words(record: Mechanism, maps: IndexMaps) -> Iterable[str]:
+    yield "means and extremes are those of the nodes; without --map they come with errors"
+    if maps.reach is not None:
+        beyond = int(np.sum(np.isinf(maps["distance"])))
+        yield (
+            "distance: from the nearest parallel singularity inside the reach, its border not counted, that rays found"
+            f" within {maps.reach:g} {maps.unit} (none from {beyond} nodes)"
+        )
+    yield length_words(record, maps.length)
 
 
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:

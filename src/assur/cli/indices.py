@@ -7,49 +7,31 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from assur.cli.options import (
+    NO_MAP,
+    POSE,
     SHARED_DEFAULTS,
-    Box,
-    Held,
+    MapOptions,
     MechanismName,
     Outcome,
+    PoseOptions,
     Shared,
-    Stroke,
-    WorkingMode,
+    refuse,
 )
-from assur.errors import UsageError
 
 
 def indices(
     mechanism: MechanismName,
     /,
     *,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="One pose, one value per coordinate."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     length: Annotated[
         str | None,
         Parameter(metavar="LENGTH", help="Divide lengths by this one, or by the one that is most 'isotropic'."),
     ] = None,
-    box: Box = (),
-    stroke: Stroke = (),
-    at: Held = (),
-    plane: Annotated[
-        str | None,
-        Parameter(name="--map", metavar="X,Z", help="Map every index over these coordinates, the others held."),
+    over: MapOptions = NO_MAP,
+    points: Annotated[
+        str | None, Parameter(metavar="COUNT", help="Points in the workspace's box, 4096 if left out.")
     ] = None,
-    nodes: Annotated[str, Parameter(metavar="COUNT", help="With --map: nodes along each; 60 if left out.")] = "60",
-    output: Annotated[
-        str | None,
-        Parameter(
-            name=("-o", "--output"),
-            metavar="FILE",
-            help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
-        ),
-    ] = None,
-    resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells of the workspace, 32 if left out.")] = "32",
-    points: Annotated[str, Parameter(metavar="COUNT", help="Points in its box, 4096 if left out.")] = "4096",
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Performance indices at a pose, or their means and extremes.
@@ -72,20 +54,15 @@ def indices(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import indexed, mapped, region_question
-    from assur.cli.numbers import numbers
-    from assur.kinematics.answers.at_border import pose_from_border
 
-    unit_length = indexed.length_asked(length)
-    mode = mode or record.modes.default_working
-    if plane is not None:
-        if pose:
-            raise UsageError("--pose and --map: one or the other", hint="--at holds coordinates of a map")
-        asked_of = (mode, box, stroke, resolution)
-        return mapped.over_plane(record, plane, at, asked_of, nodes, output, unit_length, shared)
-    if output is not None:
-        raise UsageError("--output: only maps are written", hint="add --map, as --map x,z")
-    if pose:
-        values = numbers(pose, record.platform.pose, f"pose of {record.name}")
-        return indexed.at_pose(record, pose_from_border(record, values), mode, unit_length)
-    asked = region_question.question(record, mode, box, stroke, resolution, (), None, at)
-    return indexed.over_workspace(record, asked, points, unit_length, shared)
+    unit_length, mode = indexed.length_asked(length), at.mode_of(record)
+    if over.map_ is not None:
+        refuse("a map is of many poses", "--at holds coordinates of a map", pose=at.pose)
+        refuse("of means over the workspace, not of a map", "give --nodes", points=points)
+        return mapped.over_plane(indexed.maps_of(unit_length), record, mode, over, shared)
+    if at.pose:
+        refuse("of many poses, and --pose is one", "leave it out, or --pose", points=points, **vars(over))
+        return indexed.at_pose(record, at.pose_of(record), mode, unit_length)
+    refuse("of a map alone", "add --map x,z, or leave it out", nodes=over.nodes, output=over.output)
+    asked = region_question.question(record, mode, over, over.resolution or mapped.CELLS)
+    return indexed.over_workspace(record, asked, points or "4096", unit_length, shared)

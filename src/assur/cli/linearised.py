@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +10,11 @@ from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.forced import SAID
-from assur.cli.numbers import numbers
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.quantities import mode_words
-from assur.kinematics.answers.at_border import mechanism_header, pose_at_border, pose_from_border
+from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
-from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
 from assur.machine.dynamics.small_motions import small_motions
 from assur.machine.forces.actuator_forces import force_units
@@ -32,11 +29,9 @@ ROUNDED = 1e-9
 """Share of the largest number of a matrix below which one is zero to a reader."""
 
 
-def outcome(record: Mechanism, texts: Sequence[str], mode: str, acting: tuple[Sequence[float], bool]) -> Outcome:
-    """About a pose as it was typed, home's where none was, under a load and gravity (`acting`)."""
-    names, (load, gravity) = record.platform.pose, acting
-    given = pose_from_border(record, numbers(texts, names, f"pose of {record.name}")) if texts else None
-    pose = pose_of(record, record.home_values) if given is None else given
+def outcome(record: Mechanism, pose: NDArray[np.float64], mode: str, acting: tuple[Sequence[float], bool]) -> Outcome:
+    """About a pose (m,), under a load and gravity (`acting`)."""
+    load, gravity = acting
     solved = small_motions(record, pose, mode, load, gravity=gravity)
     status = Status(int(solved.answer.status[0])).name
     known = bool(np.all(np.isfinite(solved.poles)))
@@ -75,7 +70,7 @@ def _units(record: Mechanism) -> dict[str, str]:
     }
 
 
-def _shown(record: Mechanism, answer: LinearMotionAnswer, pose: NDArray[Any]) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, answer: LinearMotionAnswer, pose: NDArray[np.float64]) -> Iterable[RenderableType]:
     end = {True: "stable", False: "not stable", None: answer.status}[answer.stable]
     yield heading(f"{answer.mechanism}, small motions: {end}")
     place = style_of(record).pose(answer.coordinates, pose_at_border(record, pose).tolist())

@@ -1,9 +1,10 @@
-"""Index maps as data, as files and as a person reads them."""
+"""Maps over coordinates of a workspace as data, as files and as a person reads them."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -11,12 +12,11 @@ import numpy as np
 from rich.console import RenderableType
 
 from assur.cli import region_question
-from assur.cli.indexed import Length, length_words
 from assur.cli.numbers import assignments, whole_number
-from assur.cli.options import Outcome, Shared
+from assur.cli.options import MapOptions, Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
-from assur.cli.progress import progress
+from assur.cli.progress import Step, progress
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.answers.style import style_of
@@ -27,53 +27,63 @@ from assur.results.answers.indices import MapsAnswer
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
 from assur.results.plain_text import short
-from assur.workspace.index_maps import IndexMaps, index_maps
+from assur.workspace.index_maps import IndexMaps
 from assur.workspace.region import Workspace, workspace
 from assur.workspace.slices import MOST, coordinates, slice_at
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from assur.figures.context import Context
+    from assur.figures.spec import Drawing
+
 PICTURES = (".png", ".pdf", ".svg")
 ENDINGS = (".npz", ".csv", ".json", *PICTURES)
+CELLS = "32"
+"""Of a workspace that is mapped, along each coordinate, where nothing else is said."""
 
 
-def over_plane(
-    record: Mechanism,
-    plane: str,
-    at: Sequence[str],
-    asked: tuple[str | None, Sequence[str], Sequence[str], str],
-    nodes: str,
-    output: str | None,
-    length: Length,
-    shared: Shared,
-) -> Outcome:
-    """Every index over the coordinates of `plane`; `asked` is the mode, boxes, strokes and resolution."""
-    names = plane_names(record, plane)
-    count = whole_number(nodes, "--nodes")
-    written = maps_file(output, names)
-    region = region_of_plane(record, names, at, asked, shared)
-    with progress("index maps", shared):
-        maps = index_maps(record, region, names, nodes=count, characteristic_length=length)
+@dataclass(frozen=True)
+class PlaneMap:
+    """What is mapped.
+
+    Attributes:
+        what: in a word.
+        nodes: along each coordinate, where nothing else is said.
+        needed: what the file must say, told before anything is solved.
+        maps: of a workspace, over coordinates, by nodes along each, with progress.
+        drawn: their figure.
+        words: what is said of them.
+    """
+
+    what: str
+    nodes: int
+    needed: Callable[[Mechanism], object]
+    maps: Callable[[Mechanism, Workspace, Sequence[str], int, Step], IndexMaps]
+    drawn: Callable[[Context, IndexMaps], Drawing]
+    words: Callable[[Mechanism, IndexMaps], Iterable[str]]
+
+
+def over_plane(asked: PlaneMap, record: Mechanism, mode: str, over: MapOptions, shared: Shared) -> Outcome:
+    """A map over the coordinates of --map in a working mode."""
+    names = plane_names(record, over.map_ or "")
+    count = asked.nodes if over.nodes is None else whole_number(over.nodes, "--nodes")
+    written = maps_file(over.output, names)
+    asked.needed(record)
+    region = region_of_plane(record, names, mode, over, shared)
+    with progress(f"{asked.what} maps", shared) as step:
+        maps = asked.maps(record, region, names, count, step)
     shown = maps.in_degrees() if record.angle == "deg" else maps
     answer = shown.answer()
     if written is not None:
-        write_maps(written, shown, answer, lambda: _drawn(record, region, maps))
-    return Outcome(answer, lambda: _shown(record, shown, written))
+        write_maps(written, shown, answer, lambda: _figure(asked, record, region, maps))
+    return Outcome(answer, lambda: _shown(asked, record, shown, written))
 
 
-def region_of_plane(
-    record: Mechanism,
-    names: Sequence[str],
-    at: Sequence[str],
-    asked: tuple[str | None, Sequence[str], Sequence[str], str],
-    shared: Shared,
-) -> Workspace:
+def region_of_plane(record: Mechanism, names: Sequence[str], mode: str, over: MapOptions, shared: Shared) -> Workspace:
     """The workspace that maps over coordinates `names` go through."""
-    mode, box, stroke, resolution = asked
-    question = region_question.question(
-        record, mode, box, stroke, resolution, (), None, [*at, *_rest(record, names, at)]
-    )
+    where = replace(over, at=(*over.at, *_rest(record, names, over.at)))
+    question = region_question.question(record, mode, where, over.resolution or CELLS)
     with progress("workspace", shared) as step:
         return workspace(
             record,
@@ -145,11 +155,10 @@ def write_maps(path: Path, shown: IndexMaps, answer: MapsAnswer, drawn: Callable
         write_whole(path, shown.csv() if ending == ".csv" else json_text(answer) + "\n")
 
 
-def _drawn(record: Mechanism, region: Workspace, maps: IndexMaps) -> Figure:
+def _figure(asked: PlaneMap, record: Mechanism, region: Workspace, maps: IndexMaps) -> Figure:
     from assur.figures.context import Context
-    from assur.figures.index_maps import drawn
 
-    return drawn(Context(record, region), maps).figure
+    return asked.drawn(Context(record, region), maps).figure
 
 
 def map_tables(record: Mechanism, maps: IndexMaps, what: str) -> Iterable[RenderableType]:
@@ -178,15 +187,8 @@ def map_tables(record: Mechanism, maps: IndexMaps, what: str) -> Iterable[Render
     yield ""
 
 
-def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
-    yield from map_tables(record, maps, "index")
-    yield "means and extremes are those of the nodes; without --map they come with errors"
-    if maps.reach is not None:
-        beyond = int(np.sum(np.isinf(maps["distance"])))
-        yield (
-            "distance: from the nearest parallel singularity inside the reach, its border not counted, that rays found"
-            f" within {maps.reach:g} {maps.unit} (none from {beyond} nodes)"
-        )
-    yield length_words(record, maps.length)
+def _shown(asked: PlaneMap, record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
+    yield from map_tables(record, maps, asked.what)
+    yield from asked.words(record, maps)
     if written is not None:
         yield f"written: {written}"

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from assur.cli.numbers import assignments, number
+from assur.cli.numbers import assignments, number, numbers
+from assur.errors import UsageError
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
@@ -42,21 +44,6 @@ Load = Annotated[
 ]
 
 NoGravity = Annotated[bool, Parameter(help="Leave gravity aside.")]
-
-Box = Annotated[
-    tuple[str, ...],
-    Parameter(metavar="NAME=LOW:HIGH,..", help="Where to look along coordinates; the file's box if left out."),
-]
-
-Stroke = Annotated[
-    tuple[str, ...],
-    Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
-]
-
-Held = Annotated[
-    tuple[str, ...],
-    Parameter(metavar="NAME=VALUE,..", help="Hold coordinates; of a pose with more than three, angles as at home."),
-]
 
 Centre = Annotated[
     str | None,
@@ -136,7 +123,104 @@ class Drawn(Shared):
         return with_thickness(found, number(self.thickness, "--thickness"))
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class PoseOptions:
+    """Options that name one assembly: by a pose, in a working mode."""
+
+    pose: Annotated[
+        tuple[str, ...],
+        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose, one value per coordinate."),
+    ] = ()
+    mode: WorkingMode = None
+
+    def pose_of(self, record: Mechanism) -> NDArray[Any]:
+        """The pose (m,) in lengths and rad; a refusal where none is given."""
+        from assur.kinematics.answers.at_border import pose_from_border
+
+        if not self.pose:
+            raise UsageError("--pose is missing", hint=f"--pose {' '.join(record.platform.pose)}")
+        return pose_from_border(record, numbers(self.pose, record.platform.pose, f"pose of {record.name}"))
+
+    def pose_or_home(self, record: Mechanism) -> NDArray[Any]:
+        """The pose (m,), home's where none is given."""
+        from assur.kinematics.pose import pose_of
+
+        return self.pose_of(record) if self.pose else pose_of(record, record.home_values)
+
+    def mode_of(self, record: Mechanism) -> str:
+        """The working mode, that of the file where none is named."""
+        return self.mode or record.modes.default_working
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class RegionOptions:
+    """Options that say where to look among poses."""
+
+    box: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="NAME=LOW:HIGH,..", help="Where to look along coordinates; the file's box if left out."),
+    ] = ()
+    stroke: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
+    ] = ()
+    at: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="NAME=VALUE,..", help="Hold coordinates; of a pose with more than three, angles as at home."),
+    ] = ()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class MapOptions(RegionOptions):
+    """Options of a map over some coordinates of the workspace; none is asked for where `map_` is None."""
+
+    map_: Annotated[
+        str | None,
+        Parameter(name="--map", metavar="X,Z", help="Map over these coordinates, the others held."),
+    ] = None
+    nodes: Annotated[
+        str | None,
+        Parameter(
+            metavar="COUNT",
+            help="With --map: nodes along each; 60 of indices, 40 of forces, 30 of stiffness if left out.",
+        ),
+    ] = None
+    output: Annotated[
+        str | None,
+        Parameter(
+            name=("-o", "--output"),
+            metavar="FILE",
+            help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
+        ),
+    ] = None
+    resolution: Annotated[
+        str | None, Parameter(metavar="CELLS", help="Cells of the workspace along each; 32 if left out.")
+    ] = None
+
+
+def refuse(why: str, hint: str, **options: object) -> None:
+    """Refuse options that a question would not look at, where any is given: what is typed is obeyed, or refused.
+
+    >>> refuse("of a map alone", "add --map x,z", nodes="30", box=(), map_=None)
+    Traceback (most recent call last):
+    ...
+    assur.errors.UsageError: --nodes: of a map alone
+    hint: add --map x,z
+    """
+    given = [
+        f"--{name.rstrip('_').replace('_', '-')}" for name, value in options.items() if value not in (None, False, ())
+    ]
+    if given:
+        raise UsageError(f"{', '.join(given)}: {why}", hint=hint)
+
+
 PLAIN = Plain()
+POSE = PoseOptions()
+REGION = RegionOptions()
+NO_MAP = MapOptions()
 SHARED_DEFAULTS = Shared()
 DRAWN_DEFAULTS = Drawn()
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from assur.cli.numbers import assignments, interval, number, parts, whole_number
+from assur.cli.options import RegionOptions
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.answers.at_border import coordinate_unit, input_unit
 from assur.mechanism import Mechanism
@@ -30,15 +31,13 @@ class Question:
 def question(
     record: Mechanism,
     mode: str | None,
-    box: Sequence[str],
-    stroke: Sequence[str],
-    resolution: str | None,
-    section: Sequence[str],
-    near: str | None,
-    at: Sequence[str] = (),
+    where: RegionOptions,
+    resolution: str | None = None,
+    section: Sequence[str] = (),
+    near: str | None = None,
 ) -> Question:
     """What was asked for, with every word checked."""
-    held = _held(record, at)
+    held = _held(record, where.at)
     last = slice_at(record, held).free[-1]
     cuts = tuple(number(text, "--section") * coordinate_unit(record, last) for text in section)
     distance = None if near is None else number(near, "--near")
@@ -46,8 +45,8 @@ def question(
         raise UsageError(f"--near: {near.strip()} is not a positive length")
     return Question(
         mode=mode or record.modes.default_working,
-        box=_box(record, box),
-        strokes=_strokes(record, stroke),
+        box=_box(record, where.box),
+        strokes=_strokes(record, where.stroke),
         resolution=None if resolution is None else whole_number(resolution, "--resolution"),
         sections=cuts or None,
         near=distance,

@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from cyclopts import Parameter
-
-from assur.cli.numbers import numbers
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+from assur.cli.options import POSE, SHARED_DEFAULTS, MechanismName, Outcome, PoseOptions, Shared
 
 
 def singularity(
     mechanism: MechanismName,
     /,
     *,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose to be judged, one value per coordinate."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """What a configuration is: regular, or singular of which kind.
@@ -35,10 +26,7 @@ def singularity(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import configuration, singularities
-    from assur.kinematics.answers.at_border import pose_from_border
 
-    mode = mode or record.modes.default_working
-    if not pose:
-        return singularities.outcome(record, mode, shared)
-    values = numbers(pose, record.platform.pose, f"pose of {record.name}")
-    return configuration.outcome(record, pose_from_border(record, values), mode)
+    if not at.pose:
+        return singularities.outcome(record, at.mode_of(record), shared)
+    return configuration.outcome(record, at.pose_of(record), at.mode_of(record))

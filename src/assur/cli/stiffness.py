@@ -6,36 +6,26 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, Box, Held, MechanismName, Outcome, Shared, Stroke, WorkingMode
+from assur.cli.options import (
+    NO_MAP,
+    POSE,
+    SHARED_DEFAULTS,
+    MapOptions,
+    MechanismName,
+    Outcome,
+    PoseOptions,
+    Shared,
+    refuse,
+)
 
 
 def stiffness(
     mechanism: MechanismName,
     /,
     *,
-    pose: Annotated[
-        tuple[str, ...],
-        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose, one value per coordinate."),
-    ] = (),
-    mode: WorkingMode = None,
+    at: PoseOptions = POSE,
     no_shear: Annotated[bool, Parameter(help="Beams of Euler and Bernoulli: no shear.")] = False,
-    box: Box = (),
-    stroke: Stroke = (),
-    at: Held = (),
-    plane: Annotated[
-        str | None,
-        Parameter(name="--map", metavar="X,Z", help="Map the least stiffness over these coordinates, the others held."),
-    ] = None,
-    nodes: Annotated[str, Parameter(metavar="COUNT", help="With --map: nodes along each; 30 if left out.")] = "30",
-    output: Annotated[
-        str | None,
-        Parameter(
-            name=("-o", "--output"),
-            metavar="FILE",
-            help="With --map: write the maps, .npz, .csv or .json, or draw them, .png, .pdf or .svg.",
-        ),
-    ] = None,
-    resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells of the workspace, 32 if left out.")] = "32",
+    over: MapOptions = NO_MAP,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Stiffness of the platform at a pose while the actuators hold their inputs.
@@ -57,22 +47,13 @@ def stiffness(
         assur stiffness zeng2019 --map x,z --at y=0 -o stiffness.png
     """
     record = shared.mechanism(mechanism)
+    mode = at.mode_of(record)
+    if over.map_ is not None:
+        from assur.cli import machine_map, mapped
+
+        refuse("a map is of many poses, with shear", "leave it out, or --map", pose=at.pose, no_shear=no_shear)
+        return mapped.over_plane(machine_map.STIFFNESS, record, mode, over, shared)
     from assur.cli import stiffness_answer
-    from assur.cli.numbers import numbers
-    from assur.errors import UsageError
-    from assur.kinematics.answers.at_border import pose_from_border
 
-    mode = mode or record.modes.default_working
-    if plane is not None:
-        if pose or no_shear:
-            raise UsageError("--map: of poses over a plane, with shear", hint="leave out --pose and --no-shear")
-        from assur.cli import machine_map
-
-        asked = mode, box, stroke, resolution
-        return machine_map.over_plane(machine_map.STIFFNESS, record, plane, at, asked, nodes, output, shared)
-    if output is not None:
-        raise UsageError("--output: only maps are written", hint="add --map, as --map x,z")
-    if not pose:
-        raise UsageError("--pose is missing", hint=f"--pose {' '.join(record.platform.pose)}")
-    place = pose_from_border(record, numbers(pose, record.platform.pose, f"pose of {record.name}"))
-    return stiffness_answer.outcome(record, place, mode, shear=not no_shear)
+    refuse("of a map alone", "add --map x,z, or leave it out", **vars(over))
+    return stiffness_answer.outcome(record, at.pose_of(record), mode, shear=not no_shear)

@@ -7,16 +7,15 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from assur.cli.options import (
+    REGION,
     SHARED_DEFAULTS,
-    Box,
-    Held,
     MechanismName,
     Outcome,
+    RegionOptions,
     Shared,
-    Stroke,
     WorkingMode,
+    refuse,
 )
-from assur.errors import UsageError
 
 
 def workspace(
@@ -24,13 +23,11 @@ def workspace(
     /,
     *,
     mode: WorkingMode = None,
-    box: Box = (),
-    stroke: Stroke = (),
+    where: RegionOptions = REGION,
     resolution: Annotated[
         str | None,
         Parameter(metavar="CELLS", help="Cells along each coordinate; 64, or 20 if followed in space."),
     ] = None,
-    at: Held = (),
     section: Annotated[
         tuple[str, ...],
         Parameter(metavar="VALUE", help="Cut across the last coordinate; the file's sections if left out."),
@@ -96,21 +93,22 @@ def workspace(
     record = shared.mechanism(mechanism)
     from assur.cli import region_question, regions
 
-    asked = region_question.question(record, mode, box, stroke, resolution, section, near, at)
+    asked = region_question.question(record, mode, where, resolution, section, near)
     if certify or prove is not None or largest is not None:
         from assur.cli import certified_regions
 
-        if resolution is not None or near is not None or output is not None:
-            raise UsageError(
-                "--resolution, --near and -o belong to the estimate, not to a proof",
-                hint="leave them out; `assur certify` writes a proof to a file",
+        elsewhere = "leave it out; `assur certify` writes a proof to a file"
+        refuse("of the estimate, not of a proof", elsewhere, resolution=resolution, near=near, output=output)
+        if prove is not None or largest is not None:
+            refuse(
+                "of the whole workspace, not of --prove and --largest", "leave it out", certify=certify, section=section
             )
+        if largest is not None:
+            refuse("--largest looks as far as it is reached", "leave it out", box=where.box)
         proof = certified_regions.ProofQuestion(gap, finest, boxes, prove, largest, around, ratio)
         return certified_regions.outcome(record, asked, proof, shared)
-    proofs = {"--gap": gap, "--finest": finest, "--boxes": boxes, "--around": around, "--ratio": ratio}
-    for name, value in proofs.items():
-        if value is not None:
-            question = {"--around": "--largest cube", "--ratio": "--largest cylinder"}.get(name, "--certify")
-            raise UsageError(f"{name} is part of a proof", hint=f"add {question}")
+    refuse("part of a proof", "add --certify", gap=gap, finest=finest, boxes=boxes)
+    refuse("part of a proof", "add --largest cube", around=around)
+    refuse("part of a proof", "add --largest cylinder", ratio=ratio)
     target = regions.target(output) if output is not None else None
     return regions.outcome(record, asked, target, shared)

@@ -78,6 +78,8 @@ def box_of(
     own = {name: pair for name, pair in record.box.items() if name in names}
     pairs: dict[str, Any] = {**own, **(box or {})}
     for name in pairs:
+        if name not in names and name in record.platform.pose:
+            raise UsageError(f"box: {name} is held", hint="let it vary, or give it no interval")
         if name not in names:
             raise UnknownNameError(f"pose coordinate of {record.name}", name, names)
     missing = [name for name in names if name not in pairs]

@@ -90,7 +90,7 @@ def measured_of(
 
     Errors:
         UnknownNameError: what cannot be measured.
-        UsageError: nothing, or something twice.
+        UsageError: nothing, or something twice; a centre of no distance.
 
     >>> from assur.model.registry import load_record
     >>> measured_of(load_record("fivebar")).names
@@ -104,6 +104,8 @@ def measured_of(
         raise UsageError("nothing is measured", hint="say what, as --measure rx,ry,rz")
     if len(set(own)) < len(own):
         raise UsageError(f"measured twice: {', '.join(own)}")
+    if DISTANCE not in own and any(centre):
+        raise UsageError("centre: no distance is measured", hint="measure the distance, or leave the centre out")
     return Measured(own, characteristic_length(record), centre)
 
 
