@@ -7,8 +7,9 @@ import pytest
 import assur
 from assur.report.findings import Findings
 from assur.report.paper import DOCUMENT, LONGEST, table_csv, table_tex, write_paper
-from assur.report.render import Page
+from assur.report.render import Page, page_html
 from assur.report.sections.description import description
+from assur.report.sections.position import position
 from assur.report.sections.velocity import velocity
 from assur.results.kinds import Section, Table
 
@@ -17,7 +18,7 @@ from assur.results.kinds import Section, Table
 def short():
     """A paper of two sections of the five-bar, with their figures."""
     findings = Findings(assur.load("fivebar"), resolution=12, illustrated=True)
-    sections = (description(findings), velocity(findings))
+    sections = (description(findings), position(findings), velocity(findings))
     return findings, Page("Five-bar: 50 % & more", "assur", "", sections)
 
 
@@ -72,7 +73,8 @@ def test_pdflatex_sets_a_whole_report_without_figures(findings, page, tmp_path):
     paths = write_paper(findings, page, tmp_path)
     assert paths[-1].name == DOCUMENT
     document = paths[-1].read_text()
-    assert document.count(r"\begin{equation}") > 100
+    numbers = re.findall(r'id="equation-(\d+)"', page_html(page))
+    assert document.count(r"\begin{equation}") == len(numbers) == int(numbers[-1]) > 100
     compiled(tmp_path)
     assert not re.search(r"LaTeX Warning: (Reference|Citation)", (tmp_path / "report.log").read_text("latin-1"))
 

@@ -19,7 +19,7 @@ from assur.report.sections.reach import AGAINST
 from assur.results.kinds import Scalar, Section, Table
 from assur.workspace.certified.proving import prove_box
 
-OUTSIDE = re.compile(r"url\(|@import|<script|<link|<iframe|<object|\bsrcset=|javascript:", re.IGNORECASE)
+OUTSIDE = re.compile(r"url\(|@import|<script\b[^>]*\s[^>]*>|<link|<iframe|<object|\bsrcset=|javascript:", re.IGNORECASE)
 
 
 # ---- one file ----------------------------------------------------------------------------------------------

@@ -95,9 +95,7 @@ class Paper:
                 yield rf"\paragraph{{{prose(result.title)}}} {prose(result.caption)}"
                 yield from (line for formula in result.lines for line in _equation(formula))
             case Matrix():
-                yield r"\begin{equation}"
-                yield rf"\fitted{{$\displaystyle {_matrix(result)}$}}"
-                yield r"\end{equation}"
+                yield rf"\[\fitted{{$\displaystyle {_matrix(result)}$}}\]"
             case Table():
                 yield from self._table(result)
             case Picture():
@@ -200,14 +198,12 @@ def _of_scalars(title: str, scalars: list[Scalar]) -> Table:
 
 
 def _equation(formula: PrintedFormula) -> Iterator[str]:
-    """A line of mathematics with a number of its own, and what it says with the number of the source below."""
-    source = f"Eq. ({formula.equation.strip('()')}) of the source" if formula.equation else ""
-    words = ": ".join(part for part in (source, formula.meaning) if part)
+    """A line of mathematics, which LaTeX numbers as the page does, and below it what it says."""
     yield r"\begin{equation}"
     yield rf"\fitted{{$\displaystyle {broken_tex(formula.mathml)}$}}"
     yield r"\end{equation}"
-    if words:
-        yield rf"\noindent {prose(words)}\par"
+    if formula.words:
+        yield rf"\noindent {prose(formula.words)}\par"
 
 
 def _matrix(matrix: Matrix) -> str:

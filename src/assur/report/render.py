@@ -17,6 +17,8 @@ from assur.report.formulas.mathml import inline
 from assur.report.formulas.tex import annotated
 from assur.results import typeset_text
 from assur.results.kinds import (
+    FLOATING,
+    RIGHTS,
     Cell,
     Facts,
     Formulas,
@@ -87,6 +89,7 @@ def _environment() -> jinja2.Environment:
         slug=slug,
         scalar=scalar_text,
         error=error_text,
+        first_words=first_words,
         short=typeset_text.short,
         base64=_base64,
         paragraphs=_paragraphs,
@@ -179,6 +182,19 @@ def scalar_text(scalar: Scalar) -> str:
             else typeset_text.bounds(scalar.low, scalar.high)
         )
     return _parts(scalar)[0]
+
+
+def first_words(right: str) -> str:
+    """What stands before the details of a right.
+
+    >>> first_words("proved by interval arithmetic: these and no other"), first_words("exact: counted")
+    ('proved', 'exact')
+    >>> first_words("proved by interval arithmetic one by one; that there is no other, in floating point")
+    'proved in part'
+    """
+    if right.startswith("proved") and FLOATING in right:
+        return "proved in part"
+    return next((word for word in RIGHTS if right.startswith(word)), right.partition(":")[0])
 
 
 def error_text(scalar: Scalar) -> str:

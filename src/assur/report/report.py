@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +15,7 @@ from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import without_loops
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
+from assur.report.numbering import Numbering
 from assur.report.render import Page, page_html
 from assur.report.sections.accuracy import accuracy
 from assur.report.sections.aspects import aspects
@@ -35,7 +35,7 @@ from assur.report.sections.velocity import velocity
 from assur.results.answers.files import ReportNumber
 from assur.results.attempt import REFUSED, reason
 from assur.results.files import file_to_write, write_whole
-from assur.results.kinds import Facts, Picture, Result, Scalar, Section
+from assur.results.kinds import Facts, Result, Scalar, Section
 from assur.work import Progress, stage, ticker
 
 KNOWN = "How the numbers are known"
@@ -128,7 +128,7 @@ def _make(findings: Findings, sections: dict[str, Section], refused: dict[str, s
 
 def _page(findings: Findings, sections: Iterable[Section]) -> Page:
     record = findings.record
-    numbered = _numbered(sections, itertools.count(1))
+    numbered = Numbering().numbered(sections)
     return Page(record.title, f"assur {assur.__version__} · {record.name}", record.source, numbered)
 
 
@@ -163,17 +163,3 @@ def _sections(sections: Iterable[Section]) -> Iterator[tuple[str, list[Result]]]
     for section in sections:
         yield section.title, [result for result in section.results if not isinstance(result, Section)]
         yield from _sections(result for result in section.results if isinstance(result, Section))
-
-
-def _numbered(sections: Iterable[Section], numbers: Iterator[int]) -> tuple[Section, ...]:
-    """The sections with their figures numbered as they stand."""
-    numbered = []
-    for section in sections:
-        results: list[Result | Section] = []
-        for result in section.results:
-            if isinstance(result, Section):
-                results += _numbered([result], numbers)
-            else:
-                results.append(replace(result, number=str(next(numbers))) if isinstance(result, Picture) else result)
-        numbered.append(replace(section, results=tuple(results)))
-    return tuple(numbered)

@@ -51,11 +51,22 @@ class Facts:
 
 @dataclass(frozen=True)
 class PrintedFormula:
-    """A line of mathematics as MathML, with the number that it has in the source and what it says."""
+    """A line of mathematics as MathML, with what it says and its number in the source and in the report."""
 
     mathml: str
     equation: str = ""
     meaning: str = ""
+    number: str = ""
+
+    @property
+    def words(self) -> str:
+        """What it says, the number that it has in the source before it.
+
+        >>> PrintedFormula("", "(7)", "a length").words
+        'Eq. (7) of the source: a length'
+        """
+        source = f"Eq. ({self.equation.strip('()')}) of the source" if self.equation else ""
+        return ": ".join(part for part in (source, self.meaning) if part)
 
 
 @dataclass(frozen=True)

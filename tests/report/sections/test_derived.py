@@ -38,10 +38,9 @@ def test_tables_are_those_of_the_engine(findings):
     assert sum(len(str(row[3]).split()) for row in relaxed.rows) == len(found.relaxation.single)
 
 
-def test_every_equation_is_typeset_and_numbered(findings):
+def test_every_equation_is_typeset_and_none_has_a_number_of_a_paper(findings):
     (formulas,) = parts(derived(findings), Formulas).values()
-    numbers = [line.equation for line in formulas.lines]
-    assert {"(1)", "(2)", "(3)", "(4)", "(5)", "(6)"} <= set(numbers)
+    assert not any(line.equation for line in formulas.lines)
     for line in formulas.lines:
         assert line.mathml.startswith("<math")
         assert "\\" not in line.mathml

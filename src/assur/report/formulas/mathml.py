@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from html import escape
+from html import escape, unescape
+from xml.etree import ElementTree
 
 from assur.report.formulas.latex import bracket, close, name_mathml
 from assur.report.formulas.normal import Power, Product, summands
@@ -113,3 +114,12 @@ def _power(power: Power) -> str:
 
 def _is_sum(term: Traced) -> bool:
     return term.letter is None and term.operator in ("+", "-")
+
+
+def tops(mathml: str) -> list[ElementTree.Element]:
+    """The parts of a formula that stand side by side on its line."""
+    content = re.sub(r"&(?!amp;|lt;|gt;|quot;|#)(\w+);", lambda match: unescape(match[0]), mathml)
+    parts = list(ElementTree.fromstring(content))  # made by assur.report.formulas
+    while len(parts) == 1 and parts[0].tag == "mrow" and not parts[0].get("class"):
+        parts = list(parts[0])
+    return parts

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from functools import lru_cache
-from html import unescape
 from xml.etree import ElementTree
 
+from assur.report.formulas.mathml import tops
 from assur.report.formulas.symbols import BOLD, FUNCTIONS, GREEK, OPERATORS
+from assur.report.formulas.wrapping import wrapping
 from assur.results.latex_text import escaped
 
 Element = ElementTree.Element
@@ -31,13 +32,13 @@ def tex(mathml: str) -> str:
     >>> tex("<math><mrow><msup><mi>l</mi><mn>2</mn></msup><mo>−</mo><mfrac><mi>α</mi><mn>2</mn></mfrac></mrow></math>")
     'l^{2}-\\frac{\\alpha }{2}'
     """
-    return "".join(map(_element, _tops(mathml))).strip()
+    return "".join(map(_element, tops(mathml))).strip()
 
 
 def broken_tex(mathml: str) -> str:
     """The same, a long sum as lines of an `aligned`, broken before signs that stand in no brackets."""
     lines, width, depth = [""], 0, 0
-    for part in _tops(mathml):
+    for part in tops(mathml):
         own = _element(part)
         depth += (part.text in ("(", "[", "{")) - (part.text in (")", "]", "}"))
         if depth == 0 and part.tag == "mo" and part.text in ("+", "−", "=") and width > WIDEST / 2:
@@ -56,19 +57,10 @@ def annotated(mathml: str) -> str:
     opening = re.match(r"<math[^>]*>", mathml)
     if opening is None:
         return mathml
-    inner = mathml[opening.end() : -len("</math>")]
+    inner = wrapping(mathml)[opening.end() : -len("</math>")]
     source = tex(mathml).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     annotation = f'<annotation encoding="application/x-tex">{source}</annotation>'
     return f"{opening[0]}<semantics>{inner}{annotation}</semantics></math>"
-
-
-def _tops(mathml: str) -> list[Element]:
-    """The parts of a formula that stand side by side on its line."""
-    content = re.sub(r"&(?!amp;|lt;|gt;|quot;|#)(\w+);", lambda match: unescape(match[0]), mathml)
-    parts = list(ElementTree.fromstring(content))  # made by assur.report.formulas
-    while len(parts) == 1 and parts[0].tag == "mrow" and not parts[0].get("class"):
-        parts = list(parts[0])
-    return parts
 
 
 def _element(part: Element) -> str:

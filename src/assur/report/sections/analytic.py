@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from assur.derivation.formula_latex import width
 from assur.derivation.kept import derived_text
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.printed_derivation import PrintedProblem, printed_derivation
@@ -31,8 +30,6 @@ HELD = {
     True: "each closes every loop, which was held against them modulo a prime of 160 bits",
     False: "NOT ALL of them close every loop",
 }
-LINE = 56
-"""Letters for which a page has room on a line."""
 PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
 PRINTERS = (Path(__file__), *sorted(Path(latex.__file__).parent.glob("*.py")))
 
@@ -104,18 +101,13 @@ def _formulas(part: WrittenPart) -> Iterator[Formulas]:
     said = [block for block in part.blocks if isinstance(block, str) and block.endswith(".")]
     if lines:
         first = [part.blocks[0].partition(" The loop equations")[0]] if isinstance(part.blocks[0], str) else []
-        yield Formulas(part.title, tuple(own for line in lines for own in _lines(line)), " ".join([*first, *said]))
+        yield Formulas(part.title, tuple(map(_line, lines)), " ".join([*first, *said]))
 
 
-def _lines(formula: WrittenFormula) -> Iterator[PrintedFormula]:
-    """A formula on as few lines as a page has room for."""
-    rows = [f"{formula.left} {formula.relation}"]
-    for row in formula.rows:
-        if width(rows[-1]) + width(row) > LINE and len(rows[-1]) > len(formula.left) + len(formula.relation) + 1:
-            rows.append(rf"\quad {row}")
-        else:
-            rows[-1] = f"{rows[-1]} {row}"
-    return (PrintedFormula(mathml.display(latex.latex_mathml(row))) for row in rows)
+def _line(formula: WrittenFormula) -> PrintedFormula:
+    """A formula, which the page breaks where it has no more room."""
+    written = " ".join([formula.left, formula.relation, *formula.rows])
+    return PrintedFormula(mathml.display(latex.latex_mathml(written)))
 
 
 def _velocities(own: PrintedVelocities) -> Formulas:
@@ -128,5 +120,5 @@ def _velocities(own: PrintedVelocities) -> Formulas:
         said.append(f"{name}, the determinant of the {'left' if kind == 'parallel' else 'right'} side, {where}.")
     loose = [factor.meaning for factor in own.factors if factor.kind == "constraint"]
     said += [f"The platform is no longer kept from turning where {meaning}." for meaning in loose]
-    lines = tuple(line for equation in own.equations for line in _lines(equation))
+    lines = tuple(map(_line, own.equations))
     return Formulas("Velocities and singular configurations", lines, " ".join(said))

@@ -15,11 +15,7 @@ from assur.results.kinds import Facts, Result, Section, Table
 from assur.results.typeset_text import short
 
 TOPOLOGICAL = (
-    (
-        "degrees of freedom",
-        "rank of the closure of all loops",
-        "Eq. (3): freedoms of the joints less those of the loops",
-    ),
+    ("degrees of freedom", "rank of the closure of all loops", "freedoms of the joints less those of the loops"),
     ("POC sets", "rules of union and intersection", "rank of twists at random finite displacements"),
 )
 CLOSED_FORM = (

@@ -39,6 +39,9 @@ def derived(findings: Findings) -> Section:
     )
 
 
+COUNTED = "freedoms of the joints less those of the loops"
+
+
 def _numbers(topology: Topology) -> list[Scalar]:
     routes = "exact: rules, and rank of twists agrees" if topology.routes_agree else TWISTS
     redundant = topology.redundant_constraints
@@ -46,8 +49,14 @@ def _numbers(topology: Topology) -> list[Scalar]:
     internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
     return [
         Scalar("dimension of the POC set", float(topology.poc.dim), "", routes),
-        Scalar("degrees of freedom F", float(topology.dof), "", routes, note=f"Eq. (3){internal}"),
-        Scalar("coupling degree κ", degree, "", routes, note="least of all orders of loops, Eq. (6)"),
+        Scalar(
+            "degrees of freedom F",
+            float(topology.dof),
+            "",
+            routes,
+            note=COUNTED + internal,
+        ),
+        Scalar("coupling degree κ", degree, "", routes, note="least of all orders of loops"),
         Scalar("redundant constraints", float(redundant.collapsed), "", routes, note=COLLAPSED),
         Scalar("redundant constraints, all joints", float(redundant.joint_graph), "", RANK, note=WHOLE),
     ]
@@ -55,9 +64,7 @@ def _numbers(topology: Topology) -> list[Scalar]:
 
 def _equations(topology: Topology) -> Formulas:
     lines = tuple(
-        PrintedFormula(
-            display(latex_mathml(f"{equation.left} = {equation.right}")), equation.number, _meaning(equation)
-        )
+        PrintedFormula(display(latex_mathml(f"{equation.left} = {equation.right}")), meaning=_meaning(equation))
         for equation in equations(topology)
     )
     return Formulas("POC sets, freedoms and degrees", lines, "dim M counts independent elements of t and r.")

@@ -17,7 +17,7 @@ from assur.results.typeset_text import short, shown_unit
 def description(findings: Findings) -> Section:
     """Facts, dimensions, inputs, links and joints."""
     record = findings.record
-    results: list[Result] = [*_counts(findings), *findings.picture("solid")]
+    results: list[Result] = [*_counts(findings)]
     results += [_parameters(record), _inputs(record)] if record.parameters else [_inputs(record)]
     results += [_joints(findings), _links(record)]
     return Section("The mechanism", _text(findings), results)
