@@ -155,7 +155,8 @@ class _Loops:
         """Circles of which an input says something, and no loop: of links that carry rods."""
         if self.symbols.problem == "direct":
             return {}
-        joints = [self.record.joints[driven.coordinate.joint] for driven in self.record.inputs]
+        turning = [own.coordinate.joint for own in self.record.inputs if own.coordinate.kind == "angle"]
+        joints = [self.record.joints[name] for name in turning]
         driven = {link for joint in joints for link in (joint.parent, joint.child)}
         turned = {own.circle for link, own in self.placed.links.items() if link in driven}
         rods = [own for own in used if own.kind == "rod"]
