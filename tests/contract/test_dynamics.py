@@ -11,7 +11,7 @@ from assur.machine.dynamics.free_motion import free_motion
 from assur.machine.dynamics.inverse_dynamics import dynamics
 from assur.machine.dynamics.prescribed_motion import harmonic
 from assur.machine.dynamics.release import Release, forces_in_time
-from assur.model.pose import LENGTHS, QUATERNION
+from assur.model.pose import LENGTHS, QUATERNION, rate_names
 from weighed import weighed
 
 pytestmark = pytest.mark.deep
@@ -34,3 +34,14 @@ def test_the_forces_of_a_motion_give_it_back(name):
     away = pose_error(record, moved.values, sway.at(moved.times)[0], length) / length
     assert np.abs(away).max() <= 1e-6
     assert moved.drift <= 1e-9
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_a_release_under_gravity_keeps_its_energy_for_a_second_or_up_to_what_ends_it(name):
+    record = weighed(assur.load(name))
+    at_rest = np.zeros(len(rate_names(record.platform.pose)))
+    start = Release(pose_of(record, home_values(record)), at_rest, 1.0, lambda _: np.zeros(len(record.drives)))
+    moved = free_motion(record, start)
+    assert moved.kinetic_energy[-1] > 0.0
+    assert moved.drift <= 1e-9
+    assert moved.gap <= 1e-10

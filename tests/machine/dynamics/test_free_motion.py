@@ -58,19 +58,6 @@ def test_the_forces_of_a_motion_give_it_back(delta):
     np.testing.assert_allclose(moved.velocities, around.at(moved.times)[1], atol=1e-7)
 
 
-@pytest.mark.deep
-@pytest.mark.parametrize("name", ["zeng2019", "delta_4s", "orthoglide", "three_rps"])
-def test_a_release_under_gravity_keeps_its_energy_for_a_second_or_up_to_what_ends_it(name):
-    record = assur.load(name)
-    start = Release(
-        pose_of(record, record.home_values), np.zeros(len(record.platform.pose)), 1.0, lambda _: still(record)
-    )
-    moved = record.free_motion(start)
-    assert moved.drift <= 1e-9
-    assert moved.gap <= 1e-10
-    assert moved.kinetic_energy[-1] > 1.0
-
-
 def test_a_platform_that_falls_onto_the_end_of_a_stroke_stops_there():
     record = assur.load("three_rps")
     start = Release(pose_of(record, record.home_values), np.zeros(3), 1.0, lambda _: still(record), count=6)

@@ -7,6 +7,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 import assur
+from assur.errors import UsageError
 from assur.kinematics.pose import pose_of
 from assur.machine.dynamics.prescribed_motion import harmonic, sampled
 from assur.machine.masses.link_masses import masses
@@ -109,3 +110,10 @@ def test_a_limit_of_the_file_bounds_a_motion_unless_it_is_left_aside():
     reached = record.inverse(refused.departure.pose, record.modes.default_working).inputs
     assert np.nanmin(np.abs(reached - high)) < 1e-3 * (high - low)
     assert record.dynamics(up, use_limits=False).status != "limit"
+
+
+@pytest.mark.parametrize("asked", ["dynamics", "free_motion"])
+def test_what_is_no_motion_is_refused_with_what_is_one(fivebar, asked):
+    with pytest.raises(UsageError, match=r"3 is no (prescribed motion|release)") as refused:
+        getattr(fivebar, asked)(3)
+    assert "machine.dynamics" in refused.value.hint

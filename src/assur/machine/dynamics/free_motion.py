@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UsageError
+from assur.errors import UsageError, cut
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import checked_poses, drives_of
 from assur.kinematics.closure import closure_error
@@ -152,7 +152,7 @@ def free_motion(
         use_limits: whether strokes of inputs and limits of joints end the motion.
 
     Errors:
-        UsageError: links without a mass, a pose of a wrong shape.
+        UsageError: links without a mass, a pose of a wrong shape, no release.
 
     Example: the five-bar's platform falls for 10 ms, by next to g t^2 / 2 if its cranks did not weigh.
 
@@ -163,6 +163,11 @@ def free_motion(
     >>> fallen.drift < 1e-9, fallen.gap < 1e-10
     (True, True)
     """
+    if not isinstance(release, Release):
+        raise UsageError(
+            f"release: {cut(repr(release))} is no release",
+            hint="it is a Release(pose, velocity, t_end, forces) of assur.machine.dynamics.release",
+        )
     equation = EquationOfMotion(record, all_masses(record), load_of(load, gravity))
     pose = checked_poses(record, release.pose)
     values = joints_in_mode(record, pose[None], mode)

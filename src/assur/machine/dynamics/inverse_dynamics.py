@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.errors import UsageError, cut
 from assur.kinematics.border import checked_poses, drives_of
 from assur.kinematics.status import Status
 from assur.machine.dynamics.departure import Departure
@@ -159,7 +160,7 @@ def dynamics(
         use_limits: whether strokes of inputs and limits of joints bound the motion.
 
     Errors:
-        UsageError: links without a mass.
+        UsageError: links without a mass, no motion.
 
     Example: the Delta carries its payload round a circle of 200 mm, once in 0.4 s.
 
@@ -172,6 +173,11 @@ def dynamics(
     >>> len(answer.times), answer.status
     (65, 'regular')
     """
+    if not isinstance(motion, PrescribedMotion):
+        raise UsageError(
+            f"motion: {cut(repr(motion))} is no prescribed motion",
+            hint="one comes from harmonic or sampled of assur.machine.dynamics.prescribed_motion",
+        )
     equation = EquationOfMotion(record, all_masses(record), load_of(load, gravity))
     times = motion.times
     joints, departure = followed_motion(record, motion, mode, use_limits=use_limits)
