@@ -43,7 +43,9 @@ def dynamics(
     output: Annotated[
         str | None,
         Parameter(
-            name=("-o", "--output"), metavar="FILE", help="Rows by moments as .csv, or a figure as .png, .pdf or .svg."
+            name=("-o", "--output"),
+            metavar="FILE",
+            help="Rows by moments as .csv, in SI and rad, or a figure as .png, .pdf or .svg.",
         ),
     ] = None,
     shared: Shared = SHARED_DEFAULTS,
