@@ -28,7 +28,7 @@ def test_a_users_own_file_has_one(drafted):
     text = page(load(drafted))
     assert len(text.encode()) < LARGEST
     found = scene_in(text)
-    assert [item["kind"] for item in found["layers"]] == ["workspace", "force", "force"]
+    assert [item["kind"] for item in found["layers"]] == ["workspace", *["force"] * 2, *["stiffness"] * 4]
 
 
 def test_other_dimensions_make_another_page():

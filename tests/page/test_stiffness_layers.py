@@ -12,7 +12,7 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.model.machine_data import MachineData
 from assur.page.stiffness_layers import FURTHEST, THICK, THIN, stiffness_layers
-from assur.page.turned_meshes import SIDES
+from assur.page.turned_meshes import AROUND
 from assur.scene.companion import companion
 from assur.scene.skeleton import skeleton
 
@@ -30,16 +30,17 @@ def test_layers_are_the_compliance_and_the_deflected_machine(name):
     assert np.ptp(sizes) < 1e-6 * sizes.mean()
     size = skeleton(mechanism, companion(mechanism), values).size
     shapes = solved.mode_shapes()
-    assert len(vibrations) == len(shapes) == 6
-    for layer, shape in zip(vibrations, shapes, strict=True):
+    assert len(vibrations) == 3
+    for layer, shape in zip(vibrations, shapes, strict=False):
         assert f"{shape.frequency:.3g} Hz" in layer.label
         curves = shape.deflected(FURTHEST * size * METRES[mechanism.unit])
         for link, share in shape.shares.links.items():
             for point in np.reshape(curves.get(link, ()), (-1, 3)) / METRES[mechanism.unit]:
                 radius = size * (THIN + (THICK - THIN) * share)
                 near = np.linalg.norm(layer.vertices - point, axis=1)
-                assert near.min() < 1e-9 * size  # the middle of an end
-                assert np.sum(np.abs(near - radius) < 1e-9 * size) >= SIDES
+                ring = layer.vertices[np.abs(near - radius) < 1e-9 * size]
+                assert len(ring) >= AROUND
+                np.testing.assert_allclose(ring.mean(axis=0), point, atol=1e-9 * size)
 
 
 def test_without_springs_there_are_none():

@@ -1,4 +1,4 @@
-"""Layers of stiffness: the ellipsoid of the platform's displacements, and natural vibrations at their largest.
+"""Layers of stiffness: the ellipsoid of the platform's displacements, and the slowest vibrations at their largest.
 
 Tubes run along what bends, the thicker the more of the strain energy is in it, and along the edges of what does not.
 """
@@ -17,13 +17,14 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.energies import ACTUATORS
 from assur.machine.elasticity.stiffness import Stiffness, stiffness_at
 from assur.model.mechanism import MechanismRecord
-from assur.page.turned_meshes import Mesh, joined, turned
+from assur.page.turned_meshes import Mesh, joined, tube
 from assur.scene.companion import companion
 from assur.scene.layers import Layer
 from assur.scene.skeleton import skeleton
 
 FloatArray = NDArray[np.float64]
-COLOUR, WAYS = "#009e73", ("#cc3311", "#ee7733", "#aa4499", "#882255", "#bb5566", "#994455")
+COLOUR, WAYS = "#009e73", ("#cc3311", "#ee7733", "#aa4499")
+"""Of the ellipsoid, and of vibrations, of which there are so many: more would make pages of a megabyte."""
 LONGEST, FURTHEST = 0.2, 0.12
 """Of the mechanism's size: the longest semi-axis, and how far the point goes that moves most."""
 THIN, THICK = 0.005, 0.015
@@ -77,14 +78,9 @@ def _tubes(curves: Mapping[str, FloatArray], shares: Mapping[str, float], size: 
     for link, own in curves.items():
         radius = size * (THIN + (THICK - THIN) * shares.get(link, 0.0))
         for curve in own:
-            ends = list(pairwise(curve))
-            if link not in shares and len(curve) > 2:
-                ends.append((curve[-1], curve[0]))
-            for first, second in ends:
-                length = float(np.linalg.norm(second - first))
-                if length > 0.0:
-                    profile = [(0.0, 0.0), (0.0, radius), (length, radius), (length, 0.0)]
-                    yield turned(profile, first, (second - first) / length)
+            ends = [*pairwise(curve), *([(curve[-1], curve[0])] if len(curve) > 2 else [])]
+            parts = [curve] if link in shares else [np.stack(pair) for pair in ends]
+            yield from (tube(part, radius) for part in parts if np.ptp(part, axis=0).any())
 
 
 def _ball(rings: int = 12, sides: int = 24) -> Mesh:

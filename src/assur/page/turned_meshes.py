@@ -1,4 +1,4 @@
-"""Meshes of layers: profiles turned about an axis, and several of them as one."""
+"""Meshes of layers: profiles turned about an axis, tubes along curves, and several of them as one."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ FloatArray = NDArray[np.float64]
 Faces = NDArray[np.int64]
 Mesh: TypeAlias = tuple[FloatArray, Faces]
 """Vertices (n, 3) and triangles (k, 3)."""
-SIDES = 7
-"""Of what is round."""
+SIDES, AROUND = 7, 5
+"""Of an arrow, and of a tube, as a page has many."""
 
 
 def joined(meshes: Sequence[Mesh]) -> Mesh:
@@ -44,3 +44,32 @@ def turned(profile: Sequence[tuple[float, float]], start: FloatArray, along: Flo
         )
         faces += [triangles + k * SIDES for triangles, radius in ((first, near), (second, far)) if radius]
     return vertices, np.concatenate(faces)
+
+
+def tube(curve: FloatArray, radius: float) -> Mesh:
+    """A tube about a curve (n, 3) without corners, no two points in the same place, closed at its ends.
+
+    >>> vertices, faces = tube(np.array([[0.0, 0, 0], [0, 0, 1], [0, 0.1, 2]]), 0.1)
+    >>> vertices.shape, faces.shape
+    ((15, 3), (26, 3))
+    """
+    ways = np.diff(curve, axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    along = np.concatenate([ways[:1], ways[:-1] + ways[1:], ways[-1:]])
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    angles = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    across = np.eye(3)[int(np.argmin(np.abs(along[0])))]
+    rings = []
+    for point, way in zip(curve, along, strict=True):
+        across = across - (across @ way) * way  # carried on, so that the tube is not wrung
+        across /= np.linalg.norm(across)
+        rings.append(
+            point + radius * (np.cos(angles)[:, None] * across + np.sin(angles)[:, None] * np.cross(way, across))
+        )
+    low = np.arange(AROUND)
+    quads = np.stack([low, np.roll(low, -1), np.roll(low, -1) + AROUND, low + AROUND], axis=1)
+    sides = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    fan = np.stack([np.zeros(AROUND - 2, dtype=np.int64), low[1:-1], low[2:]], axis=1)
+    last = AROUND * (len(curve) - 1)
+    faces = [sides + AROUND * k for k in range(len(curve) - 1)]
+    return np.concatenate(rings), np.concatenate([fan[:, ::-1], *faces, fan + last])
