@@ -13,6 +13,8 @@ from assur.crosscheck.samples import configurations
 from assur.export.mjcf import mjcf
 from assur.kinematics.status import Status
 from assur.model.machine_data import LinkData
+from own_machines import own_machine
+from weighed import weighed
 
 CLOSED_FORM = "Jacobian, closed form"
 ALWAYS = set(TOLERANCES) - {"self-motions", CLOSED_FORM}
@@ -40,6 +42,13 @@ def test_they_agree_without_a_closed_form_and_without_a_box():
     found = crosscheck(record, samples=3)
     assert found.holds
     assert {item.kind for item in found.differences} == ALWAYS
+
+
+@pytest.mark.sim
+def test_every_one_of_too_many_drives_has_its_force_and_its_rotor():
+    found = crosscheck(weighed(own_machine("two_upr_two_rpu")), samples=1)
+    assert "forces of actuators" in {item.kind for item in found.differences}
+    assert failing(found) == set()
 
 
 @pytest.mark.sim

@@ -89,7 +89,7 @@ def crosscheck(
         UsageError: the engine is not installed. Whatever the direct and the inverse problem raise.
         Interrupted: Ctrl-C; its answer is what was compared so far.
     """
-    record = record.determined  # whose inputs' rates the engine can choose one by one
+    whole, record = record, record.determined  # whose inputs' rates the engine can choose one by one
     rng = np.random.default_rng(seed)
     there = engines.engine(record, text)
     own = None if masses(record).lacking else bare_bodies(there)
@@ -103,7 +103,7 @@ def crosscheck(
         for item in found:
             sizes = _compared(there, item, rng)
             if own is not None and item.status == Status.regular and (item.problem, item.mode) not in weighed:
-                sizes |= _forces_apart(there, own, item, rng)
+                sizes |= _forces_apart(whole, there, own, item, rng)
                 weighed.add((item.problem, item.mode))
             for kind, size in sizes.items():
                 count[kind] += 1
@@ -154,17 +154,16 @@ def _compared(engine: Engine, sample: SolvedConfiguration, rng: np.random.Genera
 
 
 def _forces_apart(
-    engine: Engine, own: BareBodies, sample: SolvedConfiguration, rng: np.random.Generator
+    record: MechanismRecord, engine: Engine, own: BareBodies, sample: SolvedConfiguration, rng: np.random.Generator
 ) -> dict[str, float]:
-    """How far forces of the actuators are from the engine's, as a share of the largest; none near singularities."""
-    record = engine.record
+    """How far forces of all drives are from the engine's, as a share of the largest; none near singularities."""
     lengths = np.array([engine.bodies.size if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
     velocity, acceleration = FAST * rng.normal(size=(2, len(lengths))) * lengths
     wrench = rng.normal(size=6)
     ours = forces_at(record, sample.joints[None], load_of(wrench), velocity[None], acceleration[None])
     if ours.status[0] != Status.regular:
         return {}
-    theirs = projected_forces(engine, own, sample.joints, (velocity, acceleration), wrench)
+    theirs = projected_forces(record, engine, own, sample.joints, (velocity, acceleration), wrench)
     size = max(float(np.max(np.abs(ours.forces))), float(np.max(np.abs(theirs))))
     return {"forces of actuators": float(np.max(np.abs(ours.forces[0] - theirs))) / size}
 

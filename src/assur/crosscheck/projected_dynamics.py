@@ -16,6 +16,7 @@ from assur.crosscheck import engine as engines
 from assur.crosscheck.engine import Engine
 from assur.export.bodies import CARRIER_INERTIA
 from assur.export.names import link_name
+from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 
 FloatArray = NDArray[np.float64]
@@ -69,18 +70,24 @@ def bare_bodies(engine: Engine) -> BareBodies:
 
 
 def projected_forces(
-    engine: Engine, own: BareBodies, joints: FloatArray, motion: tuple[FloatArray, FloatArray], wrench: FloatArray
+    record: MechanismRecord,
+    engine: Engine,
+    own: BareBodies,
+    joints: FloatArray,
+    motion: tuple[FloatArray, FloatArray],
+    wrench: FloatArray,
 ) -> FloatArray:
-    """Forces (d,) of the drives at joint values (n,) of ours, under the engine's gravity.
+    """Forces (d,) of drives at joint values (n,) of ours, under the engine's gravity; of too many those of least norm.
 
     Args:
+        record: whose drives exert them.
         engine: what closes the loops.
         own: what weighs.
         joints: (n,) joint values.
         motion: velocity and acceleration (k,) of the pose, in SI units.
         wrench: (6,) force and moment on the platform at its point.
     """
-    model, record = engine.model, engine.record
+    model = engine.model
     velocity, acceleration = motion
     engines.put(engine, joints)
     matrix = own.mass_matrix(engine.data.qpos)

@@ -41,7 +41,7 @@ def compared(mechanism):
     speed, change = motion_of(record)
     answer = forces_at(record, values, load_of(WRENCH), speed, change)
     engine = engines.engine(record)
-    tau = projected_forces(engine, bare_bodies(engine), values[0], (speed[0], change[0]), np.array(WRENCH))
+    tau = projected_forces(record, engine, bare_bodies(engine), values[0], (speed[0], change[0]), np.array(WRENCH))
     np.testing.assert_allclose(answer.forces[0], tau, atol=1e-6 * np.abs(tau).max())
     question = Asked(record, values, masses(record), load_of(WRENCH), speed, change)
     many, clear = batch_of(question).balanced(question)
