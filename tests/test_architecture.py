@@ -10,7 +10,7 @@ from pathlib import Path
 import architecture
 import networkx as nx
 import pytest
-from imports import imports, module_files, tree
+from imports import imports, module_files, nodes
 from packages import order
 
 from assur.cli.application import COMMANDS
@@ -58,7 +58,7 @@ def rows(heading: str) -> list[list[str]]:
 def defined(path: Path) -> set[str]:
     """Names that a module gives to functions, classes, methods and constants."""
     names = set()
-    for node in ast.walk(tree(path)):
+    for node in nodes(path):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             names.add(node.name)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):

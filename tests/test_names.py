@@ -2,11 +2,11 @@
 
 import ast
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
-from imports import tree
+from imports import nodes, tree
 
 from source import CORE
 
@@ -24,9 +24,9 @@ def public_classes() -> dict[str, list[Path]]:
     return modules
 
 
-def declared(module: ast.AST) -> Iterator[tuple[str, int]]:
+def declared(nodes: Iterable[ast.AST]) -> Iterator[tuple[str, int]]:
     """Names, with their lines, of parameters, fields, methods and attributes that are set."""
-    for node in ast.walk(module):
+    for node in nodes:
         if isinstance(node, ast.arg):
             yield node.arg, node.lineno
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
@@ -46,7 +46,7 @@ def test_a_public_class_name_is_unique():
 
 
 def test_nothing_is_declared_by_a_word_for_a_place():
-    places = [(path, line) for path in CORE for name, line in declared(tree(path)) if name in PLACES]
+    places = [(path, line) for path in CORE for name, line in declared(nodes(path)) if name in PLACES]
     assert places == []
 
 
@@ -64,4 +64,4 @@ def test_nothing_is_declared_by_a_word_for_a_place():
     ],
 )
 def test_a_declaration_is_seen(text):
-    assert [name for name, _ in declared(ast.parse(text)) if name == "found"] == ["found"]
+    assert [name for name, _ in declared(ast.walk(ast.parse(text))) if name == "found"] == ["found"]

@@ -10,7 +10,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from imports import tree
+from imports import nodes
 from packages import docstring
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -130,7 +130,7 @@ def test_only_the_command_line_prints():
     assert [
         f"{path}:{node.lineno}"
         for path in BELOW_THE_COMMANDS
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print"
     ] == []
 
@@ -161,7 +161,7 @@ def test_no_assertion_has_a_condition_in_place_of_its_message():
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}"
         for path in sorted((ROOT / "tests").rglob("*.py"))
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Assert) and isinstance(node.msg, (ast.Compare, ast.BoolOp))
     ]
     assert found == []
@@ -217,7 +217,7 @@ def test_no_test_has_a_limit_of_time():
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}: {node.attr}"
         for path in sorted((ROOT / "tests").rglob("*.py"))
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Attribute) and node.attr in CLOCKS
     ]
     assert found == []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -23,9 +23,15 @@ def tree(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def imported(module: ast.AST, names: Container[str]) -> Iterator[str]:
+@cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    """Everything in the syntax tree of a file: a law of the house reads it each, a thousand files are walked once."""
+    return tuple(ast.walk(tree(path)))
+
+
+def imported(nodes: Iterable[ast.AST], names: Container[str]) -> Iterator[str]:
     """Which of some modules a text imports, wherever in it."""
-    for node in ast.walk(module):
+    for node in nodes:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in names)
         elif isinstance(node, ast.ImportFrom):
@@ -35,4 +41,4 @@ def imported(module: ast.AST, names: Container[str]) -> Iterator[str]:
 
 def imports(files: Mapping[str, Path]) -> dict[str, set[str]]:
     """Of every module what it imports, also within a function or for types alone."""
-    return {name: set(imported(tree(path), files)) & files.keys() for name, path in files.items()}
+    return {name: set(imported(nodes(path), files)) & files.keys() for name, path in files.items()}

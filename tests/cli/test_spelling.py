@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from imports import nodes
 
 import assur
 from assur.cli import parsing
@@ -80,7 +81,7 @@ def arguments() -> frozenset[str]:
     for path in SOURCE.rglob("*.py"):
         if "cli" in path.parts or "mechanisms" in path.parts:
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes(path):
             if isinstance(node, ast.FunctionDef):
                 found.update(item.arg for item in (*node.args.args, *node.args.kwonlyargs))
     return frozenset(name for name in found - {"self"} if len(name) > 2)

@@ -3,7 +3,7 @@
 import ast
 from pathlib import Path
 
-from imports import tree
+from imports import nodes
 
 SOURCE = Path(__file__).parents[2] / "src" / "assur"
 CORE = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in path.relative_to(SOURCE).parts)
@@ -12,7 +12,6 @@ CORE = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in path.
 
 def texts(path: Path) -> list[str]:
     """Strings in a module but its documentation."""
-    nodes = list(ast.walk(tree(path)))
-    documentation = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
-    constants = [node for node in nodes if isinstance(node, ast.Constant) and id(node) not in documentation]
+    documentation = {id(node.value) for node in nodes(path) if isinstance(node, ast.Expr)}
+    constants = [node for node in nodes(path) if isinstance(node, ast.Constant) and id(node) not in documentation]
     return [node.value for node in constants if isinstance(node.value, str)]

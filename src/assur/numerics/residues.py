@@ -216,6 +216,8 @@ class Draws(DrawnAngles):
 
     def uniform(self) -> Residues:
         """A number of F_p at each draw."""
+        if isinstance(self.p, int):
+            return Residues(self, self.random.integers(self.p, size=self.count))
         return Residues(self, self._array(*(below(self.random, 0, self.field.p) for _ in range(self.count))))
 
     def circle(self) -> tuple[Residues, Residues]:

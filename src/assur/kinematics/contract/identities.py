@@ -95,7 +95,8 @@ class Identities:
 
     def __init__(self, kernel: Kernel, general: bool = True) -> None:
         self.kernel, self.general = kernel, general
-        self.fixed = {k for k, needs in enumerate(kernel.needs) if not needs & _varying(kernel)}
+        varying = _varying(kernel)
+        self.fixed = {k for k, needs in enumerate(kernel.needs) if not needs & varying}
         random, secret = np.random.default_rng(SEED), np.random.default_rng(secrets.randbits(64))
         self.needed = frozenset[int]().union(*(kernel.needs[k] for k in _entries(kernel)))
         self._draws = GroupedDraws(PrimeField.drawn(secret), GROUPS * EACH, secret)
