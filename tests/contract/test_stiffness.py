@@ -12,7 +12,7 @@ from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.reactions import reactions
 from assur.model.machine_data import LinkData
-from bending import bending, by_limbs, by_multipliers, serial_limbs
+from bending import bending, by_limbs, by_multipliers, given, serial_limbs, yielding
 from own_machines import every_mechanism
 from weighed import motion_of, place
 
@@ -20,11 +20,40 @@ mechanism = every_mechanism()
 LOOPED = ("delta_4s", "h4_robot", "linear_delta_4r", "linear_delta_4s", "orthoglide", "three_p2us", "three_rrrp4r",
           "tsai_platform", "zeng2019", "parallelograms")  # fmt: skip
 """Links of these limbs are held in loops of their own."""
+SHORT = ("gough_stewart", "planar_3rpr", "three_rps", "three_upu")
+"""Parts of their legs have no length where strokes are zero: the platform alone bends, by several bars."""
 
 
 @pytest.fixture
 def bent(mechanism):
     return stiffness_at(bending(mechanism), place(mechanism))
+
+
+def test_a_bars_compliance_given_by_hand_is_that_of_its_profile(bent):
+    record = given(bent.record)
+    by_hand = [data.compliance is not None for data in record.machine.links.values()]
+    assert any(by_hand) != (bent.record.name in SHORT)
+    _assert_alike(bent, stiffness_at(record, bent.values).compliance[0], 1e-9)
+
+
+def test_joints_that_yield_and_gears_are_those_of_the_other_routes(mechanism):
+    """Multipliers with a compliance of their own, gears in series; virtual joints where limbs are serial."""
+    record, values = yielding(bending(mechanism)), place(mechanism)
+    own = stiffness_at(record, values)
+    _assert_alike(own, by_multipliers(record, values[0])[0], 1e-8)
+    if serial_limbs(mechanism):
+        rigid = {**record.machine.links, record.platform.link: LinkData(mass=1.0)}
+        record = replace(record, machine=replace(record.machine, links=rigid))
+        _assert_alike(stiffness_at(record, values), by_limbs(record, values, serial_limbs(mechanism)), 1e-9)
+
+
+def _assert_alike(answer, other, share):
+    """A compliance within a share of its largest number, turns by the characteristic length."""
+    units = np.repeat([answer.length, 1.0], 3)
+    plain = other / units / units[:, None]
+    np.testing.assert_allclose(
+        answer.compliance[0] / units / units[:, None], plain, atol=share * np.abs(plain).max(), rtol=0.0
+    )
 
 
 def test_compliance_is_symmetric_positive_and_that_of_the_other_route(bent):

@@ -17,7 +17,39 @@ from assur.machine.elasticity.strains import strains
 from assur.machine.elasticity.structure import structure
 from assur.machine.masses.bars import joint_points
 from assur.machine.motion.screws import rate_units
-from assur.model.machine_data import Actuator, LinkData, MachineData, Material, Profile
+from assur.model.machine_data import Actuator, Gear, LinkData, MachineData, Material, Profile
+
+
+@lru_cache
+def given(record, shear=True):
+    """The same with the compliance of each bar that is alone in its link by hand: that of the textbook's far end."""
+    machine, links = record.machine, dict(record.machine.links)
+    bars = [beam.link for beam in structure(record).beams]
+    for beam in structure(record).beams:
+        data = links[beam.link]
+        if bars.count(beam.link) == 1:
+            matrix = textbook(machine.profiles[data.profile], machine.materials[data.material],
+                              np.linalg.norm(beam.second - beam.first), shear)[6:, 6:]  # fmt: skip
+            turn = np.kron(np.eye(2), beam.axes)
+            by_hand = turn @ np.linalg.inv(matrix) @ turn.T
+            links[beam.link] = replace(data, compliance=0.5 * (by_hand + by_hand.T), profile=None, kg_per_m=1.0)
+    return replace(record, machine=replace(machine, links=links))
+
+
+@lru_cache
+def yielding(record, seed=0, ways=None):
+    """The record with joints that give way in one to six ways, or as many as are told, and gears that yield."""
+    random = np.random.default_rng(seed)
+    size = np.repeat([1e-3, 1e-2], 3)  # of the square roots of m/N and rad/(N m)
+    compliances = {}
+    for place, name in enumerate(record.joints):
+        roots = size[:, None] * random.normal(size=(6, ways or 1 + place % 6))
+        compliances[name] = roots @ roots.T
+    actuators = {
+        label: replace(actuator, rotor=0.1, gear=Gear(20.0, random.uniform(1e4, 1e6), 1e-3))
+        for label, actuator in record.machine.actuators.items()
+    }
+    return replace(record, machine=replace(record.machine, compliances=compliances, actuators=actuators))
 
 
 @lru_cache
@@ -55,6 +87,7 @@ def by_multipliers(record, values, shear=True):
     at = [placed[link][1] + (placed[link][0] @ own.skeletons[link].nodes[node] if link in own.skeletons else 0.0)
           for link, node in own.bodies]  # fmt: skip
     count = 6 * len(at)
+    held_by = _held_by(record)
     whole = np.zeros((count, count))
     for beam in own.beams:
         data = record.machine.links[beam.link]
@@ -65,7 +98,7 @@ def by_multipliers(record, values, shear=True):
         turn = np.kron(np.eye(4), turned)
         own_places = [*range(6 * first, 6 * first + 6), *range(6 * second, 6 * second + 6)]
         whole[np.ix_(own_places, own_places)] += turn @ matrix @ turn.T
-    rows, owners = [np.eye(6, count)], {}  # the base stands still
+    rows, owners, softness = [np.eye(6, count)], {}, [np.zeros((6, 6))]  # the base stands still
     moves = screws(record, values[None])[0]
     moves[3:] *= metre
     moves /= rate_units(record)
@@ -76,20 +109,31 @@ def by_multipliers(record, values, shear=True):
         own_moves = np.concatenate(
             [own_moves[3:] + np.cross(own_moves[:3], point, axis=0).reshape(3, -1), own_moves[:3]]
         )
-        held = np.linalg.svd(own_moves)[0][:, own_moves.shape[1] :]
+        compliance = record.machine.compliances.get(name)
+        indices = [item.index for item in record.joint_coordinates(name)]
+        if compliance is not None:  # a driven coordinate is then one more way in which the joint yields
+            compliance = carried(compliance, record.joints[name], placed[record.joints[name].child], (point, metre))
+            driven = [place for place, index in enumerate(indices) if index in held_by]
+            for move, place in zip(own_moves.T[driven], driven, strict=True):
+                compliance = compliance + np.outer(move, move) / held_by[indices[place]]
+            own_moves, indices = np.delete(own_moves, driven, axis=1), np.delete(indices, driven)
+        held = np.linalg.svd(own_moves)[0][:, own_moves.shape[1] :] if own_moves.size else np.eye(6)
+        softness.append(np.zeros((held.shape[1],) * 2) if compliance is None else held.T @ compliance @ held)
         owners[name] = held, slice(sum(map(len, rows)), sum(map(len, rows)) + held.shape[1])
         rows.append(held.T @ apart)
-        along = np.linalg.pinv(own_moves) @ apart
-        for row, item in zip(along, record.joint_coordinates(name), strict=True):
-            whole += own.stiffness[item.index] * np.outer(row, row)
+        along = np.linalg.pinv(own_moves) @ apart if own_moves.size else ()
+        for row, index in zip(along, indices, strict=True):
+            whole += held_by.get(index, 0.0) * np.outer(row, row)
     constraints = np.concatenate(rows)
-    size = np.abs(whole).max()
-    saddle = np.block([[whole / size, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]])
+    saddle = np.block([[whole, constraints.T], [constraints, -block_diag(*softness)]])
+    scale = np.ones(len(saddle))
+    for _ in range(20):  # rows and columns brought to 1
+        scale /= np.sqrt(np.abs(scale * saddle * scale[:, None]).max(axis=0))
     platform = _twist_at(at[own.platform], own.platform, count, point)
     loads = np.concatenate([platform.T, np.zeros((len(constraints), 6))])
-    solution = np.linalg.lstsq(saddle, loads, rcond=1e-14)[0]
+    solution = scale[:, None] * np.linalg.lstsq(scale * saddle * scale[:, None], scale[:, None] * loads, rcond=1e-13)[0]
     passed = {name: -held @ solution[count:][own_rows] for name, (held, own_rows) in owners.items()}
-    return platform @ solution[:count] / size, passed
+    return platform @ solution[:count], passed
 
 
 def textbook(profile, material, length, shear):
@@ -152,23 +196,46 @@ def _limb(record, values, links):
     moves[3:] *= METRES[record.unit]
     moves /= rate_units(record)
     moves = np.concatenate([moves[3:] + np.cross(moves[:3], point, axis=0), moves[:3]])
-    compliance, passive = np.zeros((6, 6)), np.zeros((6, 0))
+    compliance, passive, held_by = np.zeros((6, 6)), np.zeros((6, 0)), _held_by(record)
     for item in record.coordinates:
         joint = record.joints[item.joint]
         if {joint.parent, joint.child} & links:
             move = moves[:, [item.index]]
-            if own.stiffness[item.index]:
-                compliance += move @ move.T / own.stiffness[item.index]
+            if item.index in held_by:
+                compliance += move @ move.T / held_by[item.index]
             else:
                 passive = np.concatenate([passive, move], axis=1)
+    for name, softness in record.machine.compliances.items():
+        joint = record.joints[name]
+        if {joint.parent, joint.child} & links:
+            placed = tuple(part[0] for part in state.frames[joint.child])
+            compliance += carried(softness, joint, placed, (point, METRES[record.unit]))
     for number, beam in enumerate(own.beams):
         if beam.link in links:
             turn, lever = state.beam_axes[0, number], point - state.beam_ends[0, number]
-            carried = np.zeros((6, 6))  # displacement and rotation at the platform per strain
-            carried[3:, :3], carried[:3, 3:] = turn, turn
-            carried[:3, :3] = np.cross(turn, lever, axis=0)
-            compliance += carried @ beam.beam.parts.sum(axis=0) @ carried.T
+            moved = np.zeros((6, 6))  # displacement and rotation at the platform per strain
+            moved[3:, :3], moved[:3, 3:] = turn, turn
+            moved[:3, :3] = np.cross(turn, lever, axis=0)
+            compliance += moved @ beam.beam.parts.sum(axis=0) @ moved.T
     return compliance, passive
+
+
+def carried(compliance, joint, placed, seen):
+    """The compliance (6, 6) of a joint whose child is placed so (3, 3), (3,), seen from a point (3,) in metres."""
+    (turn, origin), (point, metre) = placed, seen
+    lever = point - origin - turn @ joint.child_at * metre
+    moved = np.block([[turn, np.cross(turn, lever, axis=0)], [np.zeros((3, 3)), turn]])
+    return moved @ compliance @ moved.T
+
+
+def _held_by(record):
+    """Stiffness of each driven joint coordinate, actuator and gear in series."""
+    held_by = {}
+    for item in record.drives:
+        own = record.machine.actuators[record.coordinate_label(item.coordinate)]
+        yields = 1.0 / own.stiffness + (1.0 / own.gear.stiffness if own.gear else 0.0)
+        held_by[item.coordinate.index] = 1.0 / yields
+    return held_by
 
 
 def _apart(points):

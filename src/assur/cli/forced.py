@@ -20,7 +20,7 @@ from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
 from assur.machine.elasticity.elastic_reactions import elastic_reactions
-from assur.machine.elasticity.skeletons import elastic
+from assur.machine.elasticity.structure import yields
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units
 from assur.machine.forces.reactions import Reactions, reactions
 from assur.machine.masses.link_masses import masses
@@ -112,7 +112,7 @@ def _answer(
 
 def _elastic(record: Mechanism, solved: ActuatorForces) -> Elastic:
     """What joints pass where links bend, of a file that says what that asks for."""
-    if not any(elastic(record, link) for link in record.links):
+    if not yields(record):
         return {}
     try:
         return elastic_reactions(solved)

@@ -18,9 +18,10 @@ from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
-from assur.machine.elasticity.energies import ACTUATORS
 from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
+from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.stiffness import Stiffness
+from assur.machine.elasticity.structure import yields
 from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
@@ -65,7 +66,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
     vibrations = solved.vibrations() if held else None
     lost = why_lost(record, pose, mode, status)
     notes = [NOT_HELD] if status == Status.parallel else [*lost.notes]
-    if held and not solved.strains().structure.beams:
+    if held and not yields(record):
         notes.append("no link has a profile: only the actuators give way")
     if vibrations and vibrations.lacking:
         notes.append(f"no mass is stated of {', '.join(vibrations.lacking)}: no frequencies")
@@ -82,7 +83,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
         translational_eigenvalues=whole.translational_eigenvalues,
         directions=whole.directions,
         actuator_only=motors,
-        shares=ShownShares(shares.links, shares.kinds, shares.actuators) if shares else None,
+        shares=ShownShares(shares.links, shares.kinds, shares.actuators, shares.joints) if shares else None,
         frequencies=tuple(plain(vibrations.frequencies)) if vibrations else (),
         mode_shapes=tuple(_shape(own) for own in mode_shapes(vibrations)) if vibrations else (),
         failures=lost.failures,
@@ -164,8 +165,9 @@ def _energies(answer: StiffnessAnswer) -> Iterable[RenderableType]:
         kinds = ", ".join(f"{name} {share:.1%}" for name, share in shares.kinds.items() if name != ACTUATORS)
         if any(share for name, share in shares.kinds.items() if name != ACTUATORS):
             yield f"by kinds: {kinds}"
-        drives = ", ".join(f"{name} {share:.1%}" for name, share in shares.actuators.items())
-        yield f"of that of the actuators: {drives}"
+        for whole, split in ((ACTUATORS, shares.actuators), (JOINTS, shares.joints)):
+            if split:
+                yield f"of that of the {whole}: {', '.join(f'{name} {share:.1%}' for name, share in split.items())}"
         yield "under unit forces along x, y and z, summed"
     if answer.frequencies:
         yield ""

@@ -100,7 +100,7 @@ def printed(record: MechanismRecord, model: Bodies) -> Bodies:
 def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
     """Bodies inside each other, with their joints, shapes and sites."""
     made: dict[str, Element] = {"": world}
-    rotors = {joint: actuator.rotor for joint, actuator in record.machine.actuators.items() if actuator.rotor}
+    rotors = {joint: actuator.inertia for joint, actuator in record.machine.actuators.items() if actuator.inertia}
     for body in model.bodies.values():
         element = child(
             made[body.parent],

@@ -17,7 +17,6 @@ from assur.figures.spec import Drawing, FigureKind
 from assur.figures.strain_colours import drawn_stiffness, not_held, strain_colours
 from assur.figures.style import BLUE, GREY, SKY, SMALL, TEXT
 from assur.figures.vibrations import usual_camera
-from assur.machine.elasticity.energies import ACTUATORS
 from assur.machine.elasticity.stiffness import Stiffness
 from assur.scene.skeleton import Skeleton
 
@@ -67,7 +66,7 @@ def _draw(context: Context) -> Drawing:
     page = canvas(context.page, height)
     view = inside(camera, cloud, (6.0, height - tall + 10.0, wide - 12.0, tall - 14.0))
     letters = Letters(page)
-    _draw_machine(page, view, context, shares.links, letters)
+    _draw_machine(page, view, context, shares.bent, letters)
     _draw_ellipsoid(page, view, point, ellipsoid, solved.translational[0][0], letters)
     page.text(np.array([wide / 2, height - tall + 3.5]) * POINTS, "(a)", fontsize=TEXT)
     top, left = (height if beside else height - tall), (wide if beside else 0.0)
@@ -100,8 +99,7 @@ def _lists(shares: Mapping[str, float]) -> list[tuple[str, float]]:
 
 
 def _draw_machine(page: Canvas, view: View, context: Context, shares: Mapping[str, float], letters: Letters) -> None:
-    bent = {link: share for link, share in shares.items() if link != ACTUATORS}
-    colours = dict.fromkeys(context.record.links, GREY) | strain_colours(bent, max(bent.values(), default=1.0))
+    colours = dict.fromkeys(context.record.links, GREY) | strain_colours(shares, max(shares.values(), default=1.0))
     draw_ground(page, view, context.skeleton, context.companion, letters)
     draw_bodies(page, view, context.skeleton, letters, Pen(width=1.8, symbol=0.7, colours=colours))
 

@@ -18,8 +18,8 @@ from assur.figures.strain_colours import drawn_stiffness, not_held, strain_bar, 
 from assur.figures.style import INK, PAPER, TEXT
 from assur.figures.symbols import joint_symbol
 from assur.kinematics.validation.check import METRES
-from assur.machine.elasticity.energies import ACTUATORS
 from assur.machine.elasticity.mode_shapes import ModeShape
+from assur.machine.elasticity.springs import ACTUATORS
 from assur.scene.camera import Camera, oblique, orthographic
 from assur.scene.hull import hull
 
@@ -69,7 +69,7 @@ def _draw(context: Context) -> Drawing:
     tall = float(np.clip((wide - 2 * EDGE) * span[1] / max(span[0], 1e-300), 20.0, 0.9 * wide)) + TITLE + EDGE
     height = rows * tall + BAR
     page = canvas(context.page, height)
-    most = max(share for shape in own for link, share in shape.shares.links.items() if link != ACTUATORS)
+    most = max((share for shape in own for share in shape.shares.bent.values()), default=0.0)
     for k, (shape, ways) in enumerate(zip(own, moved, strict=True)):
         left, bottom = wide * (k % columns), BAR + tall * (rows - 1 - k // columns)
         view = inside(camera, cloud, (left + EDGE, bottom + TITLE, wide - 2 * EDGE, tall - TITLE - EDGE))

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+RIGID = 1e-9
+"""Eigenvalue of a compliance whose diagonal is brought to 1 below which it is zero: it is written with digits."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,8 @@ class LinkData:
         rigid: whether it is said not to bend.
         up: (3,) direction of its profile, where it is another than the profile's own.
         bars: pairs of joints between which bars run; empty where the file does not say.
+        compliance: (6, 6) of the second of two joints while the first is held, in the link's axes and SI units,
+            displacement before rotation, force before moment.
     """
 
     mass: float | None = None
@@ -87,6 +91,7 @@ class LinkData:
     rigid: bool = False
     up: FloatArray | None = None
     bars: tuple[tuple[str, str], ...] = ()
+    compliance: FloatArray | None = None
 
     @property
     def weighs(self) -> bool:
@@ -95,11 +100,26 @@ class LinkData:
 
 
 @dataclass(frozen=True)
+class Gear:
+    """What stands between a motor and its input.
+
+    Attributes:
+        ratio: by how many rad, or m, the motor moves when the input moves by one rad or m.
+        stiffness: of the gear at the input, the motor held, in N/m or N m/rad; None of one that does not yield.
+        rotor: kg m2, or kg, of the motor, at the motor.
+    """
+
+    ratio: float
+    stiffness: float | None = None
+    rotor: float = 0.0
+
+
+@dataclass(frozen=True)
 class Actuator:
     """What drives an input.
 
     Attributes:
-        stiffness: N/m or N m/rad.
+        stiffness: of the actuator that holds its position, at the input, N/m or N m/rad.
         force, speed: the largest, N or N m and m/s or rad/s.
         rotor: what turns or moves with the input beside the links, kg or kg m2, counted at the input.
         coulomb, viscous: friction at any speed, N or N m, and per speed.
@@ -111,6 +131,12 @@ class Actuator:
     rotor: float = 0.0
     coulomb: float = 0.0
     viscous: float = 0.0
+    gear: Gear | None = None
+
+    @property
+    def inertia(self) -> float:
+        """Of the rotor, and of that behind the gear by the square of its ratio, at the input, in kg or kg m2."""
+        return self.rotor + (self.gear.ratio**2 * self.gear.rotor if self.gear else 0.0)
 
 
 @dataclass(frozen=True)
@@ -126,7 +152,8 @@ class MachineData:
     """All of it: links by their names, actuators by the joint coordinate of their input, the rest by its name.
 
     `gravity` is what the file says, else downwards along -z with 9.81 m/s2. The payload is None where there is none;
-    its centre is in the platform's frame. `clearances` are radii of joints, in the mechanism's unit.
+    its centre is in the platform's frame. `clearances` are radii of joints, in the mechanism's unit. `compliances`
+    (6, 6) are of joints, at their point on the child and in its axes, in SI units, displacement before rotation.
     """
 
     materials: Mapping[str, Material] = field(default_factory=dict)
@@ -137,3 +164,4 @@ class MachineData:
     actuators: Mapping[str, Actuator] = field(default_factory=dict)
     tolerances: Mapping[str, Tolerance] = field(default_factory=dict)
     clearances: Mapping[str, float] = field(default_factory=dict)
+    compliances: Mapping[str, FloatArray] = field(default_factory=dict)

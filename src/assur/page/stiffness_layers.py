@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.elasticity.energies import ACTUATORS
 from assur.machine.elasticity.stiffness import Stiffness, stiffness_at
 from assur.model.mechanism import MechanismRecord
 from assur.page.turned_meshes import Mesh, joined, tube
@@ -69,7 +68,7 @@ def _layers(solved: Stiffness, point: FloatArray, size: float, where: str) -> It
         most = max(shape.shares.links, key=lambda name: shape.shares.links[name])
         label = f"vibration {where}: {shape.frequency:.3g} Hz, {most} {100 * shape.shares.links[most]:.0f} %"
         placed = {link: own / metre for link, own in curves.items()}
-        tubes = list(_tubes(placed, {**shape.shares.links, ACTUATORS: 0.0}, size))
+        tubes = list(_tubes(placed, shape.shares.bent, size))
         if tubes:
             yield Layer("stiffness", label, colour, 1.0, *joined(tubes))
 

@@ -73,7 +73,7 @@ class Frame:
                 along = int(np.argmax(np.abs(self.axes[3:, item.index])))
                 node = self.tied(child, point)
                 self.model.def_support(node, *(place != along for place in range(6)))
-                self.model.def_support_spring(node, MOVES[along], self.own.stiffness[item.index])
+                self.model.def_support_spring(node, MOVES[along], self.record.machine.actuators[name].stiffness)
                 continue
             alone = [body for body in (child, parent) if ends.count(body) == 1 == borne.count(body)]
             other = parent if alone[0] == child else child

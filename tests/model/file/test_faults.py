@@ -6,9 +6,9 @@ import pytest
 
 Faults = Callable[[str], list[str]]
 TOP = (
-    "allowed here: actuators, angle, angles, base, chains, clearances, format, generalised, gravity, home, inputs, "
-    "joints, limbs, links, materials, modes, name, parameters, payload, platform, points, profiles, source, title, "
-    "tolerances, unit, workspace"
+    "allowed here: actuators, angle, angles, base, chains, clearances, compliances, format, generalised, gravity, "
+    "home, inputs, joints, limbs, links, materials, modes, name, parameters, payload, platform, points, profiles, "
+    "source, title, tolerances, unit, workspace"
 )
 LINKS = "there is: coupler, crank, ground, rocker"
 JOINTS = "there is: A, B, C, D, R2"
@@ -111,8 +111,8 @@ CASES: list[tuple[str, str, list[str]]] = [
     # links and joints
     ("[links]", "[lnks]", [f"15: lnks: unknown key; {TOP}", "? did you mean 'links'?"]),
     ("crank = {}", "crank = { masss = 3 }",
-     ["17: links.crank.masss: unknown key; allowed here: bars, centre, inertia, kg_per_m, mass, material, meaning, "
-      "profile, rigid, up", "? did you mean 'mass'?"]),
+     ["17: links.crank.masss: unknown key; allowed here: bars, centre, compliance, inertia, kg_per_m, mass, material, "
+      "meaning, profile, rigid, up", "? did you mean 'mass'?"]),
     ("crank = {}", "crank = { meaning = 3 }", ["17: links.crank.meaning: 3; allowed: a text in quotes"]),
     ("crank = {}", "crank = 3", ["17: links.crank: 3; allowed: a table { ... }"]),
     ("rocker = {}", "rocker = {}\nlost = {}",

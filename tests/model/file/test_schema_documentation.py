@@ -30,7 +30,7 @@ MODELS = [
     schema.FileEntry, schema.ParameterEntry, schema.PlatformEntry, schema.LimbEntry, schema.Repeat, schema.InputEntry,
     schema.InputTable, schema.GeneralisedEntry, schema.ChainEntry, schema.WorkspaceEntry, schema.ModesEntry,
     schema.Cone, schema.MaterialEntry, schema.ProfileEntry, schema.GravityEntry, schema.LinkEntry,
-    schema.ActuatorEntry, schema.FrictionEntry, schema.ToleranceEntry, *schema.JOINT_ENTRIES.values(),
+    schema.ActuatorEntry, schema.GearEntry, schema.FrictionEntry, schema.ToleranceEntry, *schema.JOINT_ENTRIES.values(),
 ]  # fmt: skip
 
 

@@ -53,11 +53,10 @@ def elastic_errors(record: MechanismRecord, values: FloatArray, twists: FloatArr
     first = np.zeros((own.unknowns, count))
     fits = np.full(count, bool(state.held[0]))
     if len(own.loops):
-        joints = slice(own.unknowns - len(state.scales), own.unknowns)
         closing = (own.loops[:, None] * state.screws[0]).reshape(-1, len(state.scales))
         gaps = np.einsum("lj,jik->lik", own.loops[:, starts], about).reshape(-1, count)
-        first[joints] = -np.linalg.pinv(closing, rcond=CLOSED) @ gaps
-        left = np.linalg.norm(closing @ first[joints] + gaps, axis=0)
+        first[own.coordinates] = -np.linalg.pinv(closing, rcond=CLOSED) @ gaps
+        left = np.linalg.norm(closing @ first[own.coordinates] + gaps, axis=0)
         fits &= left <= CLOSED * np.linalg.norm(gaps, axis=0)
     ends = np.array([beam.bodies for beam in own.beams], dtype=int).reshape(-1, 2)
     strained = state.in_axes((bodies[ends[:, 1]] - bodies[ends[:, 0]])[None])[0]  # (E, 6, k)

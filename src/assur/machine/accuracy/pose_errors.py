@@ -23,7 +23,7 @@ from assur.machine.accuracy.elastic_errors import elastic_errors
 from assur.machine.accuracy.error_closure import FITS, ErrorClosure, error_closure
 from assur.machine.accuracy.geometry_errors import geometry_errors
 from assur.machine.accuracy.proved_poses import ProvedPoses, proved_poses
-from assur.machine.elasticity.skeletons import elastic
+from assur.machine.elasticity.structure import yields
 from assur.machine.forces.reactions import child_points
 from assur.model.mechanism import MechanismRecord
 from assur.results.notebook import Entries, Tabulated
@@ -156,7 +156,7 @@ def pose_errors_at(record: MechanismRecord, values: FloatArray, *, bent: bool = 
     stresses = {errors.names[place]: _borne(own, left_open[:, place], points) for place in lost}
     moved[:, lost] = np.nan
     settled: tuple[str, ...] = ()
-    if bent and len(lost) and any(elastic(record, link) for link in record.links):
+    if bent and len(lost) and yields(record):
         try:
             moved[:, lost] = elastic_errors(record, values, errors.twists[lost].transpose(1, 2, 0))
             moved[:3, lost] += errors.point[lost].T

@@ -17,6 +17,8 @@ from assur.model.machine_data import Material, Profile
 FloatArray = NDArray[np.float64]
 KINDS = ("bending", "torsion", "axial", "shear")
 """Kinds of strain, in the order of their flexibilities."""
+GIVEN = "given"
+"""The kind of what gives way by a compliance that the file gives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +27,15 @@ class Beam:
 
     Attributes:
         length: in m.
-        parts: (4, 6, 6) flexibilities of the second end while the first is held, one for each of `KINDS`.
+        parts: (k, 6, 6) flexibilities of the second end while the first is held, one for each of `kinds`.
+        kinds: of strain.
+        slender: the beam whose points move as this one's where only its flexibility is known.
     """
 
     length: float
     parts: FloatArray
+    kinds: tuple[str, ...] = KINDS
+    slender: Beam | None = None
 
     @property
     def stiffness(self) -> FloatArray:
@@ -44,7 +50,11 @@ class Beam:
 
         The shape is that of a beam that bears loads at its ends alone.
         """
+        if self.slender is not None:
+            return self.slender.displaced(places)
         s, length = places, self.length
+        if length == 0.0:
+            return np.zeros((len(s), 4, 6))
         _, torsion, axial, shear = self.parts
         bend_y, bend_z = self.parts[0, 2, 2] / length, self.parts[0, 1, 1] / length  # 1 / (E I)
         shape = np.zeros((len(s), 4, 6))
@@ -88,6 +98,19 @@ def beam(profile: Profile, material: Material, length: float, *, shear: bool = T
         for push, area in zip((4, 5), shear_areas(profile, poisson), strict=True):
             parts[3, push, push] = 0.0 if area is None else length / (rigidity * area)
     return Beam(length, parts)
+
+
+def given_beam(compliance: FloatArray, length: float) -> Beam:
+    """A beam of which only the compliance (6, 6) of its second end is known, in its axes, displacement before rotation.
+
+    Between its ends it bends as a slender uniform beam.
+
+    >>> float(given_beam(np.diag([1e-8, 2e-8, 2e-8, 1e-6, 1e-6, 1e-6]), 0.5).stiffness[3, 3].round())
+    100000000.0
+    """
+    unit = Profile("", "moments", (), 1.0, 1.0, 1.0, 1.0)
+    slender = beam(unit, Material("", None, 1.0, 0.0), length, shear=False)
+    return Beam(length, np.roll(compliance, 3, axis=(0, 1))[None], (GIVEN,), slender)
 
 
 def shear_areas(profile: Profile, poisson: float) -> tuple[float | None, float | None]:

@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 
 from assur.machine.elasticity.beams import consistent_load
 from assur.machine.elasticity.strains import Strains, strains
-from assur.machine.elasticity.structure import structure
+from assur.machine.elasticity.structure import ElasticStructure, structure
 from assur.machine.elasticity.structure_masses import beam_motion, body_motion, centre_of, rigid_bodies, tied_to
 from assur.machine.forces.actuator_forces import ActuatorForces
 from assur.machine.forces.reactions import OPEN, RANK, about_origin, child_points, joint_wrenches
 from assur.machine.masses.link_masses import bar_weights, masses
 from assur.machine.masses.rigid_body import RigidBody
-from assur.machine.motion.inertia import rotors
 from assur.machine.motion.screws import joint_screws, paths, screw_rates
 
 FloatArray = NDArray[np.float64]
@@ -67,10 +66,9 @@ def elastic_reactions(answer: ActuatorForces, *, shear: bool = True) -> Mapping[
     bodies, fields = rigid_bodies(own, masses(record)), _accelerations(answer)
     on_beams = [_beam_load(state, place, fields[beam.link]) for place, beam in enumerate(own.beams)]
     on_bodies = {link: _body_load(state, link, body, fields[link]) for link, body in bodies.items()}
-    turning = rotors(record) * answer.joint_accelerations[0]  # what rotors need of their drives
-    joints = slice(own.unknowns - len(turning), own.unknowns)
+    turning = _turning(own, answer.joint_accelerations[0])
     work = state.platform[0].T @ np.concatenate([answer.load.force, answer.load.moment])
-    work[joints] -= turning * state.scales
+    work[own.coordinates] -= turning * state.scales
     for place, load in enumerate(on_beams):
         work += beam_motion(state, place).T @ load
     for link, wrench in on_bodies.items():
@@ -80,7 +78,15 @@ def elastic_reactions(answer: ActuatorForces, *, shear: bool = True) -> Mapping[
     for link, wrench in on_bodies.items():
         borne[tied_to(own, link, bodies[link])] += _about(wrench[3:], wrench[:3], centre_of(state, link, bodies[link]))
     borne[own.platform] += _about(answer.load.force, answer.load.moment, state.point[0])
-    return _passed(state, answer.values[:1], borne, -own.stiffness * state.scales * moved[joints] - turning)
+    stretched = state.scales * moved[own.coordinates]
+    return _passed(state, answer.values[:1], borne, own.springs.efforts(stretched) - turning)
+
+
+def _turning(structure: ElasticStructure, second: FloatArray) -> FloatArray:
+    """What rotors need of their drives (w,) at joint accelerations (n,), that behind a gear as much as at its input."""
+    rotors = structure.springs.rotors
+    between = np.zeros(len(rotors) - len(second) - len(structure.springs.before))
+    return np.asarray(rotors * np.concatenate([second, between, second[list(structure.springs.before)]]))
 
 
 def _accelerations(answer: ActuatorForces) -> dict[str, Acceleration]:
@@ -150,7 +156,7 @@ def _passed(state: Strains, values: FloatArray, borne: FloatArray, efforts: Floa
         state: the structure.
         values: (1, n) of the joints.
         borne: (B, 6) force, and moment about the base's origin, on each body from beams and loads.
-        efforts: (n,) what drives pass along their coordinates.
+        efforts: (w,) what drives and virtual joints pass along their coordinates.
     """
     own, record, length = state.structure, state.structure.record, state.length
     points = child_points(record, values)
@@ -161,8 +167,10 @@ def _passed(state: Strains, values: FloatArray, borne: FloatArray, efforts: Floa
         at_base = about_origin(wrenches[:, column], points[joint] / length)
         equations[child, :, column] += at_base
         equations[parent, :, column] -= at_base
-    matrix = equations[1:].reshape(-1, len(owners))  # the base bears whatever it is
-    right = -(borne[1:] / np.repeat([1.0, length], 3)).reshape(-1)
+    balance = equations[1:].reshape(-1, len(owners))  # the base bears whatever it is
+    along, stretching = _along_virtual_joints(state, wrenches, owners, efforts)
+    matrix = np.concatenate([balance, along])
+    right = np.concatenate([-(borne[1:] / np.repeat([1.0, length], 3)).reshape(-1), stretching])
     solution = np.zeros(len(owners))
     for (column, scale), item in zip(drives, record.drives, strict=True):
         solution[column] = item.sign * efforts[item.coordinate.index] * scale
@@ -180,6 +188,23 @@ def _passed(state: Strains, values: FloatArray, borne: FloatArray, efforts: Floa
         wrench = wrenches[:, columns] @ solution[columns] * np.repeat([1.0, length], 3)
         passed[joint] = wrench if sure else None
     return passed
+
+
+def _along_virtual_joints(
+    state: Strains, wrenches: FloatArray, owners: list[str], efforts: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """What each virtual joint is passed (V, U) along its coordinates by wrenches (6, U), and by its efforts (V,)."""
+    virtual = state.structure.virtual
+    count = sum(len(joint.stiffness) for joint in virtual.values())
+    along, first = np.zeros((count, len(owners))), 0
+    for name, joint in virtual.items():
+        turn = state.frames[joint.link][0][0]
+        moves = np.concatenate([turn @ joint.twists[3:], turn @ joint.twists[:3]])
+        columns = [column for column, owner in enumerate(owners) if owner == name]
+        along[first : first + len(joint.stiffness), columns] = moves.T @ wrenches[:, columns]
+        first += len(joint.stiffness)
+    start = len(state.structure.record.coordinates)
+    return along, efforts[start : start + count] / state.length
 
 
 def _about(force: FloatArray, moment: FloatArray, point: FloatArray) -> FloatArray:

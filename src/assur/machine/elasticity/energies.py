@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.machine.elasticity.beams import KINDS
+from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.strains import Strains
 
 FloatArray = NDArray[np.float64]
-ACTUATORS = "actuators"
-"""Stands for all of them among links and kinds of strain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,33 +20,46 @@ class EnergyShares:
     """Shares of a strain energy. Each split sums to 1.
 
     Attributes:
-        links, kinds: of all energy, by elastic links and by kinds of strain, that of all actuators among them.
-        actuators: of the energy of the actuators.
+        links, kinds: of all energy, by elastic links and by kinds of strain; among links that of all actuators with
+            their gears, and of all joints that give way, among kinds that of actuators, of gears and of joints.
+        actuators: of the energy of the actuators with their gears, by inputs.
+        joints: of that of the joints.
         energy: all of it, in J.
     """
 
     links: Mapping[str, float]
     kinds: Mapping[str, float]
     actuators: Mapping[str, float]
+    joints: Mapping[str, float]
     energy: float
+
+    @property
+    def bent(self) -> dict[str, float]:
+        """Shares of the elastic links alone."""
+        return {name: share for name, share in self.links.items() if name not in (ACTUATORS, JOINTS)}
 
 
 def energy_shares(state: Strains, moved: FloatArray) -> EnergyShares:
-    """Energy of beams and actuators at the first configuration of a structure, of unknowns (U, k), summed over k."""
-    own, record = state.structure, state.structure.record
+    """Energy of beams and springs at the first configuration of a structure, of unknowns (U, k), summed over k."""
+    own, springs = state.structure, state.structure.springs
     links = dict.fromkeys(own.skeletons, 0.0)
-    kinds = dict.fromkeys(KINDS, 0.0)
+    given = [kind for beam in own.beams for kind in beam.beam.kinds]
+    kinds = dict.fromkeys([*KINDS, *given, *springs.kinds[::-1]], 0.0)
     for beam, strain in zip(own.beams, state.of_beams[0] @ moved, strict=True):
         wrench = beam.beam.stiffness @ (strain * state.units[:, None])
-        for kind, part in zip(KINDS, beam.beam.parts, strict=True):
+        for kind, part in zip(beam.beam.kinds, beam.beam.parts, strict=True):
             energy = 0.5 * float(np.sum(wrench * (part @ wrench)))
             links[beam.link] += energy
             kinds[kind] += energy
-    joints = moved[own.unknowns - len(state.scales) :] * state.scales[:, None]
-    springs = 0.5 * own.stiffness * np.sum(joints**2, axis=1)
-    actuators = {item.name: float(springs[item.coordinate.index]) for item in record.drives}
-    links[ACTUATORS] = kinds[ACTUATORS] = sum(actuators.values())
-    return EnergyShares(_shares(links), _shares(kinds), _shares(actuators), sum(kinds.values()))
+    split: dict[str, dict[str, float]] = {ACTUATORS: {}, JOINTS: {}}
+    stretched = springs.energies(moved[own.coordinates] * state.scales[:, None])
+    for kind, name, energy in zip(springs.kinds, springs.names, stretched.tolist(), strict=True):
+        kinds[kind] += energy
+        owners = split[JOINTS if kind == JOINTS else ACTUATORS]
+        owners[name] = owners.get(name, 0.0) + energy
+    links |= {whole: sum(owners.values()) for whole, owners in split.items() if owners}
+    actuators, joints = (_shares(owners) for owners in split.values())
+    return EnergyShares(_shares(links), _shares(kinds), actuators, joints, sum(kinds.values()))
 
 
 def _shares(energies: Mapping[str, float]) -> dict[str, float]:

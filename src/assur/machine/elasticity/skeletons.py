@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.validation.check import METRES
-from assur.machine.elasticity.beams import Beam, beam
+from assur.machine.elasticity.beams import Beam, beam, given_beam
 from assur.machine.masses.bars import joint_points, link_bars
-from assur.model.machine_data import Material, Profile
+from assur.model.machine_data import Material
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -36,19 +36,21 @@ class SkeletonBar:
 class BarSkeleton:
     """The nodes (K, 3) of a link in its frame, in m, its bars, and the node of each joint; the platform's point too.
 
-    A joint that is on no bar is tied rigidly to the nearest point of one, which is a node.
+    A joint that is on no bar is tied rigidly to the nearest point of one, which is a node. The nodes of a link whose
+    compliance is given are the points of the two joints that it is between.
     """
 
     nodes: FloatArray
     bars: tuple[SkeletonBar, ...]
     ties: Mapping[str, int]
-    profile: Profile
 
 
 def elastic(record: MechanismRecord, link: str) -> bool:
-    """Whether a link bends: it has a profile, and is not said to be rigid."""
+    """Whether a link bends: it has a profile or a compliance, and is not said to be rigid."""
     own = record.machine.links.get(link)
-    return link != record.base and own is not None and own.profile is not None and not own.rigid
+    if own is None or own.rigid or link == record.base:
+        return False
+    return own.profile is not None or own.compliance is not None
 
 
 def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSkeleton:
@@ -63,12 +65,12 @@ def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSk
     (2, {'C1': 0, 'C2': 1, 'D1': 2})
     """
     data, metre = record.machine.links[link], METRES[record.unit]
+    if data.compliance is not None:
+        return _given(record, link, data.compliance)
     material = _material(record, link)
     profile = record.machine.profiles[data.profile or ""]
     ends = metre * np.array([bar.ends for bar in link_bars(record, link)])  # (B, 2, 3)
-    points = {name: metre * point for name, point in joint_points(record, link).items()}
-    if link == record.platform.link:
-        points[PLATFORM] = metre * np.asarray(record.platform.point)
+    points = _points(record, link)
     size = float(np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)))
     if size == 0.0:
         raise UsageError(f"link {link} of {record.name}: its bars have no length", hint="say of it: rigid = true")
@@ -87,9 +89,37 @@ def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSk
     for pair in pairs:
         along = nodes.points[pair[1]] - nodes.points[pair[0]]
         length = float(np.linalg.norm(along))
-        axes = _axes(record, link, along / length, up, profile)
+        axes = _axes(along / length, up)
+        if axes is None:
+            raise UsageError(
+                f"link {link} of {record.name}: up of {profile.name} is along its bar",
+                hint="say in [links] a direction across it: up = [0, 0, 1]",
+            )
         bars.append(SkeletonBar(pair, beam(profile, material, length, shear=shear), axes))
-    return BarSkeleton(np.array(nodes.points), tuple(bars), ties, profile)
+    return BarSkeleton(np.array(nodes.points), tuple(bars), ties)
+
+
+def _points(record: MechanismRecord, link: str) -> dict[str, FloatArray]:
+    """Points (3,) of a link's joints in its frame, in m, and the platform's."""
+    points = {name: METRES[record.unit] * point for name, point in joint_points(record, link).items()}
+    if link == record.platform.link:
+        points[PLATFORM] = METRES[record.unit] * np.asarray(record.platform.point)
+    return points
+
+
+def _given(record: MechanismRecord, link: str, compliance: FloatArray) -> BarSkeleton:
+    """Of a link whose compliance (6, 6) is given: what is no end of it is tied to the nearer one."""
+    points = _points(record, link)
+    pair = record.machine.links[link].bars[:1] or [tuple(joint_points(record, link))]
+    names = pair[0] if len(pair[0]) == 2 else link_bars(record, link)[0].joints
+    ends = np.array([points[name] for name in names])
+    length = float(np.linalg.norm(ends[1] - ends[0]))
+    axes = _axes((ends[1] - ends[0]) / length, None) if length else None
+    axes = np.eye(3) if axes is None else axes
+    turned = np.kron(np.eye(2), axes)
+    bar = SkeletonBar((0, 1), given_beam(turned.T @ compliance @ turned, length), axes)
+    nearest = {name: int(np.argmin(np.linalg.norm(ends - point, axis=1))) for name, point in points.items()}
+    return BarSkeleton(ends, (bar,), nearest | {names[0]: 0, names[1]: 1})
 
 
 class _Nodes:
@@ -172,15 +202,12 @@ def _connected(record: MechanismRecord, link: str, pairs: list[tuple[int, int]],
         )
 
 
-def _axes(record: MechanismRecord, link: str, along: FloatArray, up: FloatArray | None, profile: Profile) -> FloatArray:
-    """Axes (3, 3) of a bar as columns: along it, `up`, and across both."""
+def _axes(along: FloatArray, up: FloatArray | None) -> FloatArray | None:
+    """Axes (3, 3) of a bar as columns: along it, `up`, and across both; None where `up` is along it."""
     given = np.eye(3)[int(np.argmin(np.abs(along)))] if up is None else np.asarray(up, dtype=float)
     across = given - (given @ along) * along
     size = float(np.linalg.norm(across))
     if size < 1e-6 * float(np.linalg.norm(given)):
-        raise UsageError(
-            f"link {link} of {record.name}: up of {profile.name} is along its bar",
-            hint="say in [links] a direction across it: up = [0, 0, 1]",
-        )
+        return None
     y = across / size
     return np.array([along, y, np.cross(along, y)]).T

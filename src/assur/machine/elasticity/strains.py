@@ -1,7 +1,7 @@
 """What motions of a structure strain, at configurations: matrices of stiffness and mass, and the motions that are free.
 
-Unknowns are twists of the roots about the platform's point, velocities over the characteristic length, and joint
-coordinates over their units: plain numbers. Where rigid links close loops only motions that keep these closed count.
+Unknowns are twists of the roots about the platform's point, velocities over the characteristic length, and coordinates
+over their units: plain numbers. Where rigid links close loops only motions that keep these closed count.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.pose import platform_frame
 from assur.kinematics.rates.motions import SINGULAR, general_share
 from assur.kinematics.validation.check import METRES
+from assur.machine.elasticity.springs import VirtualJoint
 from assur.machine.elasticity.structure import ElasticStructure
 from assur.machine.motion.joint_motion import at_point, joint_scales_si
 from assur.machine.motion.screws import joint_screws
@@ -36,8 +37,8 @@ class Strains:
         frames: (N, 3, 3) and (N, 3) of every link, in m.
         point: (N, 3) the platform's.
         length: the characteristic one, in m.
-        screws: (N, 6, n) of the joint unknowns about the platform's point, velocities over the length.
-        scales: (n,) rates or angles per joint unknown.
+        screws: (N, 6, w) of the coordinates about the platform's point, velocities over the length.
+        scales: (w,) lengths or angles per coordinate's unknown.
     """
 
     structure: ElasticStructure
@@ -54,7 +55,7 @@ class Strains:
         root = int(own.roots[body])
         if root:
             whole[:, range(6), range(6 * root - 6, 6 * root)] = 1.0
-        whole[..., own.unknowns - len(self.scales) :] = own.paths[body] * self.screws
+        whole[..., own.coordinates] = own.paths[body] * self.screws
         return whole
 
     @cached_property
@@ -75,7 +76,7 @@ class Strains:
                 first = 6 * roots[beam] - 6
                 apart[:, beam, range(6), range(first, first + 6)] += sense
         signs = own.paths[ends[:, 1]] - own.paths[ends[:, 0]]
-        apart[..., own.unknowns - len(self.scales) :] = self.screws[:, None] * signs[:, None]
+        apart[..., own.coordinates] = self.screws[:, None] * signs[:, None]
         return self.in_axes(apart)
 
     def in_axes(self, apart: FloatArray) -> FloatArray:
@@ -115,7 +116,7 @@ class Strains:
         _, sizes, across = np.linalg.svd(closure, full_matrices=True)
         rank = np.sum(sizes > SINGULAR * general_share(own.record) * sizes[:, :1], axis=-1)
         kept = np.arange(len(self.scales)) >= rank[:, None]
-        roots = own.unknowns - len(self.scales)
+        roots = own.coordinates.start
         basis = np.zeros((len(self.point), own.unknowns, own.unknowns))
         basis[:, range(roots), range(roots)] = 1.0
         basis[:, roots:, roots:] = np.swapaxes(across, -1, -2) * kept[:, None]
@@ -128,18 +129,20 @@ class Strains:
 
     @cached_property
     def stiffness(self) -> FloatArray:
-        """The stiffness matrix (N, U, U) in J, of beams and actuators, rigid loops left aside."""
+        """The stiffness matrix (N, U, U) in J, of beams and springs, rigid loops left aside."""
         roots = [
             np.linalg.cholesky(beam.beam.stiffness * self.units * self.units[:, None]).T
             for beam in self.structure.beams
         ]
-        return self._form(np.array(roots).reshape(-1, 6, 6), self.structure.stiffness * self.scales**2)
+        springs = self.structure.springs
+        stretched = np.sqrt(springs.stiffness)[:, None] * springs.ends * self.scales
+        return self._form(np.array(roots).reshape(-1, 6, 6), stretched)
 
-    def _form(self, roots: FloatArray, drives: FloatArray) -> FloatArray:
+    def _form(self, roots: FloatArray, stretched: FloatArray) -> FloatArray:
         strained = (roots @ self.of_beams).reshape(len(self.point), 6 * len(roots), self.structure.unknowns)
         whole = np.swapaxes(strained, -1, -2) @ strained
-        joints = np.arange(self.structure.unknowns - len(self.scales), self.structure.unknowns)
-        whole[:, joints, joints] += drives
+        own = self.structure.coordinates
+        whole[:, own, own] += stretched.T @ stretched
         return np.asarray(whole)
 
     @cached_property
@@ -148,10 +151,8 @@ class Strains:
 
         Those that would open a loop of rigid bodies are among them: `closing` turns them into nothing.
         """
-        driven = (self.structure.stiffness > 0.0).astype(float)
-        sizes, vectors = np.linalg.eigh(
-            self.kept(self._form(np.eye(6)[None].repeat(len(self.structure.beams), 0), driven))
-        )
+        alike = np.eye(6)[None].repeat(len(self.structure.beams), 0)
+        sizes, vectors = np.linalg.eigh(self.kept(self._form(alike, self.structure.springs.ends)))
         return np.asarray(vectors * (sizes <= FREE**2 * sizes[:, -1:])[:, None])
 
     @cached_property
@@ -186,8 +187,22 @@ def strains(structure: ElasticStructure, values: FloatArray) -> Strains:
     placed = {link: (turn, metre * origin) for link, (turn, origin) in frames(record, values).items()}
     point = metre * platform_frame(record, values)[1]
     length = metre * characteristic_length(record)
-    screws = at_point(joint_screws(record, values) * scales, point, length)
-    return Strains(structure, placed, point, length, screws, scales)
+    own = at_point(joint_screws(record, values) * scales, point, length)
+    yielding = [_virtual_screws(joint, placed[joint.link], point, length) for joint in structure.virtual.values()]
+    before = list(structure.springs.before)
+    screws = np.concatenate([own, *yielding, 0.0 * own[..., before]], axis=-1)
+    ones = np.ones(screws.shape[-1] - len(scales) - len(before))
+    return Strains(structure, placed, point, length, screws, np.concatenate([scales, ones, scales[before]]))
+
+
+def _virtual_screws(
+    joint: VirtualJoint, placed: tuple[FloatArray, FloatArray], point: FloatArray, length: float
+) -> FloatArray:
+    """Twists (N, 6, r) of a virtual joint about points (N, 3), velocities over the length."""
+    turn, origin = placed
+    turned, moved = turn @ joint.twists[:3], turn @ joint.twists[3:]
+    lever = (point - origin - turn @ joint.point) / length
+    return np.concatenate([turned, moved + _crossing(lever, turned)], axis=-2)
 
 
 def _crossing(lever: FloatArray, turned: FloatArray) -> FloatArray:

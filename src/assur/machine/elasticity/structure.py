@@ -2,22 +2,24 @@
 
 Bodies are rigid links, and the nodes of elastic ones. Joints alone hold bodies together rigidly, so a spanning forest
 over the joints leaves few unknowns: six of each tree's root, none of the base, and all joint coordinates. Passive
-joints need no more: nothing holds their coordinates. Loops that rigid links close stay as conditions; where links bend
+joints need no more: nothing holds their coordinates. Joints that give way have more of them, and rotors behind gears
+theirs. Loops that rigid links close stay as conditions; where links bend
 there are none, however often they hold the same.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UsageError
 from assur.joint_graph.tree import joint_graph
 from assur.machine.elasticity.beams import Beam
 from assur.machine.elasticity.skeletons import PLATFORM, BarSkeleton, elastic, skeleton
+from assur.machine.elasticity.springs import Springs, VirtualJoint, springs, virtual_joints
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -52,13 +54,15 @@ class ElasticStructure:
         record: the mechanism.
         bodies: (link, node) of each; the base is the first, and rigid links have the one node 0.
         roots: (B,) the tree that each body belongs to, 0 that of the base.
-        paths: (B, n) 1, -1 or 0: which joint coordinates lie between the tree's root and the body.
-        loops: (v, n) the same around each loop that rigid bodies close.
+        paths: (B, w) 1, -1 or 0: which coordinates lie between the tree's root and the body; those of joints, then of
+            virtual joints, then of rotors behind gears, which lie nowhere.
+        loops: (v, w) the same around each loop that rigid bodies close.
         beams: all of them.
         platform: the body that the platform's point is on.
         sides: joint -> the bodies of its parent and of its child.
         skeletons: of the elastic links.
-        stiffness: (n,) of the actuators at their joint coordinates, N/m or N m/rad; 0 of passive ones.
+        virtual: joint -> how it gives way where it should hold.
+        springs: at the coordinates.
     """
 
     record: MechanismRecord
@@ -70,17 +74,24 @@ class ElasticStructure:
     platform: int
     sides: dict[str, tuple[int, int]]
     skeletons: dict[str, BarSkeleton]
-    stiffness: FloatArray
+    virtual: dict[str, VirtualJoint]
+    springs: Springs
 
     @property
     def unknowns(self) -> int:
-        """Of the roots, then of the joints."""
-        return 6 * int(self.roots.max()) + int(self.paths.shape[1])
+        """Of the roots, then the coordinates."""
+        return int(self.coordinates.stop)
+
+    @property
+    def coordinates(self) -> slice:
+        """Where the coordinates are among the unknowns."""
+        roots = 6 * int(self.roots.max())
+        return slice(roots, roots + int(self.paths.shape[1]))
 
 
 @lru_cache(maxsize=64)
 def structure(record: MechanismRecord, *, shear: bool = True, rigid: bool = False) -> ElasticStructure:
-    """The structure of a mechanism; with `rigid` no link bends.
+    """The structure of a mechanism; with `rigid` neither links nor joints give way.
 
     Errors:
         UsageError: actuators without stiffness; what `skeleton` refuses.
@@ -90,7 +101,8 @@ def structure(record: MechanismRecord, *, shear: bool = True, rigid: bool = Fals
     >>> len(own.bodies), len(own.beams), own.unknowns, len(own.loops)
     (23, 9, 47, 0)
     """
-    stiffness = actuator_stiffness(record)
+    virtual = {} if rigid else virtual_joints(record)
+    own_springs = springs(record, virtual)
     bent = [] if rigid else [link for link in record.links if elastic(record, link)]
     skeletons = {link: skeleton(record, link, shear=shear) for link in bent}
     links = [record.base, *(link for link in record.links if link != record.base)]
@@ -103,7 +115,8 @@ def structure(record: MechanismRecord, *, shear: bool = True, rigid: bool = Fals
         return number[link, skeletons[link].ties[joint] if link in skeletons else 0]
 
     sides = {name: (at(joint.parent, name), at(joint.child, name)) for name, joint in record.joints.items()}
-    roots, paths, loops = _forest(record, len(bodies), sides)
+    columns = _columns(record, virtual)
+    roots, paths, loops = _forest(len(bodies), sides, (columns, len(own_springs.rotors)))
     beams = tuple(
         StructureBeam(
             link=link,
@@ -117,40 +130,39 @@ def structure(record: MechanismRecord, *, shear: bool = True, rigid: bool = Fals
         for bar in own.bars
     )
     platform = at(record.platform.link, PLATFORM)
-    return ElasticStructure(record, bodies, roots, paths, loops, beams, platform, sides, skeletons, stiffness)
+    return ElasticStructure(
+        record, bodies, roots, paths, loops, beams, platform, sides, skeletons, virtual, own_springs
+    )
 
 
-def actuator_stiffness(record: MechanismRecord) -> FloatArray:
-    """Stiffness (n,) at the joint coordinates, 0 where nothing drives.
+def yields(record: MechanismRecord) -> bool:
+    """Whether anything but the actuators gives way: a link, or a joint.
 
-    Errors:
-        UsageError: an actuator of which the file says none.
+    >>> from assur.model.registry import load_record
+    >>> yields(load_record("zeng2019"))
+    True
     """
-    numbers = np.zeros(len(record.coordinates))
-    lacking = []
-    for drive in record.drives:
-        label = record.coordinate_label(drive.coordinate)
-        actuator = record.machine.actuators.get(label)
-        if actuator is None or actuator.stiffness is None:
-            lacking.append((label, drive.coordinate.kind))
-        else:
-            numbers[drive.coordinate.index] = actuator.stiffness
-    if lacking:
-        label, kind = lacking[0]
-        told = "1e7 }, in N/m" if kind == "length" else "1e5 }, in N m/rad"
-        key = label if label.count(".") == 0 or label.split(".")[0] in record.joints else label.split(".", 1)[1]
-        raise UsageError(
-            f"{record.name}: no stiffness of {', '.join(name for name, _ in lacking)}",
-            hint=f"say it in [actuators]: {key} = {{ stiffness = {told}",
-        )
-    return numbers
+    return bool(record.machine.compliances) or any(elastic(record, link) for link in record.links)
+
+
+def _columns(record: MechanismRecord, virtual: Mapping[str, VirtualJoint]) -> dict[str, list[int]]:
+    """Coordinates of each joint, its own and those of its virtual joint."""
+    columns = {name: list(range(part.start, part.stop)) for name, part in joint_graph(record).slices.items()}
+    first = len(record.coordinates)
+    for name, joint in virtual.items():
+        columns[name] += range(first, first + len(joint.stiffness))
+        first += len(joint.stiffness)
+    return columns
 
 
 def _forest(
-    record: MechanismRecord, count: int, sides: dict[str, tuple[int, int]]
+    count: int, sides: dict[str, tuple[int, int]], coordinates: tuple[dict[str, list[int]], int]
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Trees over the joints, the base's first: root of each body, paths, and the loops that are left."""
-    slices, width = joint_graph(record).slices, len(record.coordinates)
+    """Trees over the joints, the base's first: root of each body, paths, and the loops that are left.
+
+    `coordinates` are those of each joint, and how many there are.
+    """
+    columns, width = coordinates
     roots, paths = np.full(count, -1), np.zeros((count, width))
     used: set[str] = set()
     for start in range(count):
@@ -169,12 +181,12 @@ def _forest(
                 used.add(name)
                 roots[other] = tree
                 paths[other] = paths[body]
-                paths[other, slices[name]] = 1.0 if body == parent else -1.0
+                paths[other, columns[name]] = 1.0 if body == parent else -1.0
                 reached.append(other)
     loops = []
     for name, (parent, child) in sides.items():
         if name not in used:
             around = paths[parent] - paths[child]
-            around[slices[name]] = 1.0
+            around[columns[name]] = 1.0
             loops.append(around)
     return roots, paths, np.array(loops).reshape(-1, width)

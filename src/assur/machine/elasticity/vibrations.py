@@ -1,7 +1,7 @@
 """Natural vibrations of a structure at rest: consistent masses of its beams, the other links as rigid bodies.
 
-Drives are held by the stiffness of their actuators. Spins that nothing holds take part only as what vibrates drags
-them along.
+Drives are held by the stiffness of their actuators; a rotor behind a gear that yields moves by itself. Spins that
+nothing holds take part only as what vibrates drags them along.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from assur.machine.elasticity.beams import consistent_mass
 from assur.machine.elasticity.strains import Strains
 from assur.machine.elasticity.structure_masses import beam_motion, body_motion, rigid_bodies
 from assur.machine.masses.link_masses import Masses, bar_weights, masses
-from assur.machine.motion.inertia import rotors
 
 FloatArray = NDArray[np.float64]
 MASSLESS = 1e-12
@@ -80,6 +79,5 @@ def mass_matrix(state: Strains, known: Masses) -> FloatArray:
         spread[:3, :3] = turn @ body.inertia @ turn.T
         spread[3:, 3:] = body.mass * np.eye(3)
         whole += moved.T @ spread @ moved
-    joints = np.arange(own.unknowns - len(state.scales), own.unknowns)
-    whole[joints, joints] += rotors(record) * state.scales**2
+    whole[own.coordinates, own.coordinates] += np.diag(own.springs.rotors * state.scales**2)
     return whole

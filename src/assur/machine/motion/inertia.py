@@ -113,9 +113,9 @@ def link_inertia(record: MechanismRecord, values: FloatArray, known: Masses) -> 
 
 
 def rotors(record: MechanismRecord) -> FloatArray:
-    """Inertia of rotors (n,) at the joint coordinates that they drive."""
+    """Inertia of rotors (n,) at the joint coordinates that they drive, also through gears."""
     numbers = np.zeros(len(record.coordinates))
     for item in record.drives:
         actuator = record.machine.actuators.get(record.coordinate_label(item.coordinate))
-        numbers[item.coordinate.index] = actuator.rotor if actuator else 0.0
+        numbers[item.coordinate.index] = actuator.inertia if actuator else 0.0
     return numbers

@@ -12,16 +12,17 @@ from numpy.typing import NDArray
 from assur.errors import KeyPath
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
+from assur.model.file.build_compliances import joint_compliances, link_compliance
 from assur.model.file.build_joints import JointVectors
 from assur.model.file.build_profiles import build_materials, build_profiles, check_positive
 from assur.model.file.faults import Faults
 from assur.model.file.limbs import Instance, Placed, Tables
 from assur.model.file.scope import Scope
-from assur.model.machine_data import Actuator, Gravity, LinkData, MachineData, Profile, Tolerance
+from assur.model.machine_data import Actuator, Gear, Gravity, LinkData, MachineData, Profile, Tolerance
 from assur.model.mechanism import Input, Joint
 
 FloatArray = NDArray[np.float64]
-MACHINE_TABLES = ("materials", "profiles", "actuators", "tolerances", "clearances")
+MACHINE_TABLES = ("materials", "profiles", "actuators", "tolerances", "clearances", "compliances")
 ROUNDED = 1e-9
 """Share of the largest principal moment by which the triangle inequality may fail: moments are written with digits."""
 OF_A_BOUND = 3.0
@@ -66,6 +67,7 @@ def build_machine(
         actuators=_actuators(file, names, faults),
         tolerances=_tolerances(file, names, geometry),
         clearances=_clearances(file, names, geometry),
+        compliances=joint_compliances(file.compliances, tables, geometry, names.of_joint),
     )
 
 
@@ -97,7 +99,8 @@ class _Names:
                 if joint in joints:
                     for known in (name, f"{name}.{part}"):
                         driven.setdefault(known, []).append(label)
-        if text not in driven and not self.tables.broken.get("inputs"):
+        complete = len(self.drives) == len(self.tables.inputs) and not self.tables.broken.get("inputs")
+        if text not in driven and complete:
             self.faults.unknown(path, "driven joint", text, driven)
         return driven.get(text, [])
 
@@ -145,6 +148,7 @@ def _link(
         rigid=entry.rigid,
         up=None if entry.up is None else geometry.axis(entry.up, (*path, "up"), instance),
         bars=tuple(bars),
+        compliance=link_compliance(entry.compliance, (*path, "compliance"), geometry, instance),
     )
 
 
@@ -205,6 +209,9 @@ def _check_link(
             faults.unknown((*path, key), key, name, entries)
     if data.profile is not None and data.material is None and data.mass is None and data.kg_per_m is None:
         faults.add((*path, "profile"), "a profile without material", "allowed: material = beside it, or kg_per_m")
+    if data.compliance is not None and len(data.bars) > 1:
+        allowed = "allowed: one pair, the joint that is held and the joint that gives way"
+        faults.add((*path, "bars"), f"{len(data.bars)} pairs beside a compliance", allowed)
     profile = profiles.get(data.profile or "")
     if profile and profile.iy != profile.iz and profile.up is None and data.up is None:
         faults.add((*path, "profile"), f"'{profile.name}' without up", 'allowed: up = "z", or another direction')
@@ -227,10 +234,19 @@ def _actuators(file: schema.FileEntry, names: _Names, faults: Faults) -> dict[st
         for key in ("coulomb", "viscous"):
             check_positive(getattr(entry.friction, key), (*path, "friction", key), faults, zero=True)
         friction = entry.friction.coulomb, entry.friction.viscous
-        actuator = Actuator(entry.stiffness, entry.force, entry.speed, entry.rotor, *friction)
+        gear = None if entry.gear is None else _gear(entry.gear, (*path, "gear"), faults)
+        actuator = Actuator(entry.stiffness, entry.force, entry.speed, entry.rotor, *friction, gear)
         labels = names.of_input(text, path)
         (general if len(labels) > 1 else own).update(dict.fromkeys(labels, actuator))
     return {**general, **own}
+
+
+def _gear(entry: schema.GearEntry, path: KeyPath, faults: Faults) -> Gear:
+    if entry.ratio == 0.0:
+        faults.add((*path, "ratio"), "0", "allowed: a number that is not zero")
+    check_positive(entry.stiffness, (*path, "stiffness"), faults)
+    check_positive(entry.rotor, (*path, "rotor"), faults, zero=True)
+    return Gear(entry.ratio, entry.stiffness, entry.rotor)
 
 
 def _tolerances(file: schema.FileEntry, names: _Names, geometry: JointVectors) -> dict[str, Tolerance]:

@@ -88,7 +88,7 @@ def _entry(path: KeyPath) -> KeyPath:
     """The smallest part that can be cut out: one entry of a table, else a table."""
     if path[0] == "limbs":
         return path[: 3 if len(path) > 2 and path[2] in ("repeat", "chain") else 4]
-    return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles", "clearances") else path[:1]
+    return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles", "clearances", "compliances") else path[:1]
 
 
 def _take(data: dict[str, Any], path: KeyPath) -> tuple[dict[str, Any], Any]:

@@ -43,6 +43,13 @@ DEFINITIONS: dict[str, Schema] = {
     "number": {"description": "A number, in SI units.", "type": "number"},
     "two_numbers": _list_of({"type": "number"}, 2, "Two numbers, in SI units."),
     "inertia": _list_of({"type": "number"}, 6, "xx, yy, zz, xy, xz, yz, in kg m2."),
+    "compliance": {
+        "description": "The diagonal, or six rows: m/N, m/(N m), rad/N, rad/(N m), displacement before rotation.",
+        "anyOf": [
+            {"type": "array", "items": {"type": "number"}, "minItems": 6, "maxItems": 6},
+            {"type": "array", "items": _list_of({"type": "number"}, 6, "A row."), "minItems": 6, "maxItems": 6},
+        ],
+    },
     "bar_ends": _list_of({"type": "string"}, 2, "Two joints."),
     "sense": {"description": "1 or -1.", "enum": [1, -1]},
     "mechanism_name": {

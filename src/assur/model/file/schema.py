@@ -14,6 +14,7 @@ from assur.model.file.values import (
     ZERO,
     Axis,
     BarEnds,
+    ComplianceRows,
     Format,
     HomeValue,
     Inertia,
@@ -95,6 +96,7 @@ class LinkEntry(WeightEntry):
     kg_per_m: Number | None = None
     rigid: StrictBool = False
     up: Axis | None = None
+    compliance: ComplianceRows | None = None
     bars: Annotated[tuple[BarEnds, ...], Field(min_length=1, max_length=60)] | None = None
 
 
@@ -105,6 +107,14 @@ class FrictionEntry(Entry):
     viscous: Number = 0.0
 
 
+class GearEntry(Entry):
+    """A gear: motions of the motor per motion of the input, N/m or N m/rad at the input, kg or kg m2 at the motor."""
+
+    ratio: Number
+    stiffness: Number | None = None
+    rotor: Number = 0.0
+
+
 class ActuatorEntry(Entry):
     """What drives an input: N/m or N m/rad, N or N m, m/s or rad/s, kg or kg m2."""
 
@@ -113,6 +123,7 @@ class ActuatorEntry(Entry):
     speed: Number | None = None
     rotor: Number = 0.0
     friction: FrictionEntry = FrictionEntry()
+    gear: GearEntry | None = None
 
 
 class ToleranceEntry(Entry):
@@ -376,3 +387,4 @@ class FileEntry(Entry):
     actuators: dict[str, ActuatorEntry] = {}
     tolerances: dict[str, ToleranceValue] = {}
     clearances: dict[str, Value] = {}
+    compliances: dict[str, ComplianceRows] = {}

@@ -27,6 +27,8 @@ LARGEST_NUMBER = 1e30
 DEFINITION = "definition"
 """Key by which a JSON Schema names one of its definitions until it is written."""
 
+FREEDOMS = 6
+"""Of a free body: rows of a compliance."""
 COMMA = "write decimals with a point: 0.5, not 0,5"
 
 
@@ -144,6 +146,25 @@ def _number(value: object) -> float:
     return float(value)
 
 
+def _compliance(value: object) -> object:
+    """Six numbers, the diagonal, or six rows of six."""
+    allowed = "allowed: six numbers, which are its diagonal, or six rows of six"
+    if not isinstance(value, list):
+        raise refuse(shown(value), allowed)
+    if len(value) != FREEDOMS:
+        raise refuse(_written(value), allowed, COMMA if _split(value, FREEDOMS) else "")
+    rows = [row if isinstance(row, list) else [] for row in value]
+    if not any(rows):
+        diagonal = [_number(number) for number in value]
+        return tuple(
+            tuple(number if row == column else 0.0 for column in range(FREEDOMS)) for row, number in enumerate(diagonal)
+        )
+    for place, (row, own) in enumerate(zip(value, rows, strict=True), 1):
+        if len(own) != FREEDOMS:
+            raise refuse(f"row {place}: {_written(row) if isinstance(row, list) else shown(row)}", allowed)
+    return tuple(tuple(_number(number) for number in row) for row in rows)
+
+
 def bound_alone(value: object) -> object:
     """A bound, or a table that says more."""
     return value if isinstance(value, dict) else {"bound": value}
@@ -193,6 +214,7 @@ Inertia = Annotated[
     _listed(6, "a list [xx, yy, zz, xy, xz, yz]"),
     _described("inertia"),
 ]
+ComplianceRows = Annotated[tuple[tuple[float, ...], ...], PlainValidator(_compliance), _described("compliance")]
 BarEnds = Annotated[tuple[str, str], _listed(2, "a list of two joints"), _described("bar_ends")]
 ZERO = (parse("0"), parse("0"), parse("0"))
 DOWN = (parse("0"), parse("0"), parse("-1"))

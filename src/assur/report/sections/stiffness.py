@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from assur.figures.strain_colours import drawn_stiffness
-from assur.machine.elasticity.energies import ACTUATORS, EnergyShares
+from assur.machine.elasticity.energies import EnergyShares
+from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.stiffness import Stiffness
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, RANK, Result, Scalar, Section, Table
@@ -57,9 +58,10 @@ def _micro(value: float) -> str:
 def _shared(shares: EnergyShares) -> Iterator[Table]:
     """By links and actuators, the largest first, and by kinds where links bend."""
     caption = "Of the strain energy under unit forces along x, y and z, summed."
-    bent = {name: share for name, share in shares.links.items() if name != ACTUATORS}
-    whole = bent | {name: share * shares.links[ACTUATORS] for name, share in shares.actuators.items()}
-    for title, own in (("What gives way", whole), ("Kinds of strain", shares.kinds if bent else {})):
+    whole = shares.bent | {name: share * shares.links[ACTUATORS] for name, share in shares.actuators.items()}
+    whole |= {f"joint {name}": share * shares.links[JOINTS] for name, share in shares.joints.items()}
+    several = sum(share > 0.0 for share in shares.kinds.values()) > 1
+    for title, own in (("What gives way", whole), ("Kinds of strain", shares.kinds if several else {})):
         rows = tuple((name, f"{share:.1%}") for name, share in sorted(own.items(), key=lambda pair: -pair[1]))
         if rows:
             yield Table(title, ("in", "share"), rows, caption, folded=len(rows) > 8, known_by=FLOATING)

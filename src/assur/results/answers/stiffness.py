@@ -31,13 +31,15 @@ class ShownCompliance:
 class ShownShares:
     """Shares of the strain energy under unit forces along x, y and z, summed; each split sums to 1.
 
-    Among `links` and `kinds` (bending, torsion, axial, shear) "actuators" stands for all of them; `actuators` splits
-    theirs.
+    Among `links` "actuators" stands for all of them with their gears, and "joints" for all that have a compliance;
+    `actuators` and `joints` split these. `kinds` are bending, torsion, axial, shear, given (links with a compliance),
+    joints, gears and actuators; the given ones, joints and gears where there are such.
     """
 
     links: Mapping[str, float]
     kinds: Mapping[str, float]
     actuators: Mapping[str, float]
+    joints: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class ShownModeShape:
     """A natural vibration at its largest: of all points that which moves most has gone one metre.
 
     `platform` is the displacement of the platform's point, then its rotation; `shares` of the strain energy by links,
-    "actuators" standing for all of them.
+    "actuators" and "joints" standing for all of them.
     """
 
     frequency: float
