@@ -1,11 +1,12 @@
 from itertools import combinations_with_replacement, product
 from types import SimpleNamespace
 
-from assur.synthesis.classes import are_equal, classes, number_of_members, simplest_members
+from assur.synthesis.classes import are_equal, chosen_classes, classes, number_of_members, simplest_members
 
 
-def stand_in(text, joints=3, parallelograms=0):
-    return SimpleNamespace(text=text, type=SimpleNamespace(joints=joints, parallelograms=parallelograms))
+def stand_in(text, joints=3, parallelograms=0, drives=1):
+    limb = SimpleNamespace(joints=joints, parallelograms=parallelograms, driven=tuple(range(drives)))
+    return SimpleNamespace(text=text, type=limb)
 
 
 def test_limbs_of_one_class_have_one_poc_set(in_space):
@@ -39,7 +40,9 @@ def test_members_are_different_and_in_order():
     assert all(len(set(map(id, limbs))) > 1 for limbs in simplest_members([first, first, first]))
 
 
-def test_equal_classes():
-    first, second = (stand_in("a"),), (stand_in("b"),)
-    assert are_equal([first, first])
-    assert not are_equal([first, second])
+def test_sets_of_classes_have_the_drives_that_are_asked_for_and_equal_ones_are_those_of_one_class():
+    one, other, twice = ((stand_in(name, drives=drives),) for name, drives in (("a", 1), ("b", 1), ("c", 2)))
+    every = list(chosen_classes([one, other, twice], 2, 2))
+    assert every == [(one, one), (one, other), (other, other)]
+    assert list(chosen_classes([one, other, twice], 2, 2, equal=True)) == [some for some in every if are_equal(some)]
+    assert list(chosen_classes([one, other, twice], 2, 3)) == [(one, twice), (other, twice)]

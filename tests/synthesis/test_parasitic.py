@@ -4,6 +4,7 @@ import pytest
 
 from assur.model.topologies import load_topology
 from assur.synthesis.assembly import Range, Sought, known_members
+from assur.synthesis.classes import chosen_classes
 from assur.synthesis.known_mechanisms import known_by_directions
 from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
 from assur.synthesis.question import question
@@ -30,7 +31,7 @@ def mechanisms(name, classes, line):
     """Of a known mechanism's classes on such a line, in each arrangement: what is listed, if it is that one."""
     (known,) = (one for one in known_by_directions(RISING) if one.name == name)
     sought = Sought(RISING, Range(0, 99), (), members=1, known=[known.key])
-    for one in arranged_classes(classes, RISING, len(known.chains), RISING.dim):
+    for one in arranged_classes(chosen_classes(classes, len(known.chains), RISING.dim), RISING):
         if one.line == line and known_members(one.chosen, [known.key]):
             yield [design for design in moved(one, sought).designs if known.is_like(design.limbs, design.chains)]
 
@@ -82,7 +83,7 @@ def test_the_oracle_of_finite_motion_confirms_the_first_of_every_family(motion, 
 
 
 def test_a_member_of_classes_that_stand_alike_is_counted_once(in_legs):
-    for one in arranged_classes(in_legs, RISING, 3, RISING.dim):
+    for one in arranged_classes(chosen_classes(in_legs, 3, RISING.dim), RISING):
         members = one.simplest()
         if len(members) < 1000:  # else only the simplest are written
             assert len(members) == one.members

@@ -39,6 +39,21 @@ def classes(limbs: Sequence[CandidateLimb]) -> tuple[Class, ...]:
     return tuple(map(tuple, ordered))
 
 
+def chosen_classes(
+    every: Sequence[Class], limbs: int, drives: int, *, equal: bool = False
+) -> Iterator[tuple[Class, ...]]:
+    """One class for each limb, such that they have so many drives together; their order makes no difference.
+
+    Args:
+        every: the classes.
+        limbs: their number.
+        drives: of the mechanism.
+        equal: whether all limbs are of one class.
+    """
+    sets = ((members,) * limbs for members in every) if equal else combinations_with_replacement(every, limbs)
+    return (chosen for chosen in sets if sum(len(members[0].type.driven) for members in chosen) == drives)
+
+
 def are_equal(chosen: Sequence[Class]) -> bool:
     """Whether it is one class again and again."""
     return all(members is chosen[0] for members in chosen)

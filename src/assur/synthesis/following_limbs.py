@@ -7,9 +7,9 @@ the virtual chain at each of its poses. An axis runs through the point only wher
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from functools import lru_cache
-from itertools import combinations_with_replacement, product
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache, lru_cache
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -265,19 +265,20 @@ def wrenches(limb: CandidateLimb, place: int) -> FloatArray:
     return null_basis(np.swapaxes(edge.twists, -1, -2))
 
 
-def sets_of_classes(
-    classes: Sequence[Class], motion: VirtualChain, limbs: int, drives: int
+def sets_leaving(
+    sets: Iterable[tuple[Class, ...]], motion: VirtualChain
 ) -> Iterator[tuple[tuple[Class, ...], tuple[int, ...]]]:
-    """One class for each limb that leave just the motion together, and the first places in which they do.
+    """Those of the sets, one class for each limb, that leave just the motion together; the first places where they do.
 
-    Places in which limbs are turned in many ways come first, since their drives can do more together.
+    Args:
+        sets: as `chosen_classes` gives them.
+        motion: with its virtual chain.
     """
     resisted: dict[object, FloatArray] = {}
-    for chosen in combinations_with_replacement(classes, limbs):
-        if sum(len(some[0].type.driven) for some in chosen) == drives:
-            places = places_leaving(chosen, motion, resisted)
-            if places is not None:
-                yield chosen, places
+    for chosen in sets:
+        places = places_leaving(chosen, motion, resisted)
+        if places is not None:
+            yield chosen, places
 
 
 def places_leaving(
@@ -298,13 +299,19 @@ def places_leaving(
         return known[id(some), place]
 
     ways = len(TURNS[motion.symmetry])
-    turns = product(range(ways), repeat=len(chosen))
-    for turn in sorted(turns, key=lambda turn: (max(Counter(turn).values()), turn)):
+    for turn in _turns(ways, len(chosen)):
         places = tuple(slot * ways + way for slot, way in enumerate(turn))
         together = [resists(some, place) for some, place in zip(chosen, places, strict=True)]
         if np.all(_ranks(np.concatenate(together, axis=-1)) == FREE - motion.dim):
             return places
     return None
+
+
+@cache
+def _turns(ways: int, limbs: int) -> tuple[tuple[int, ...], ...]:
+    """The way in which each limb is turned; limbs turned in many ways come first, as their drives can do more."""
+    every = product(range(ways), repeat=limbs)
+    return tuple(sorted(every, key=lambda turn: (max(Counter(turn).values()), turn)))
 
 
 def _ranks(spaces: FloatArray) -> NDArray[np.intp]:

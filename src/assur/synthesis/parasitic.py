@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import chain as joined
@@ -133,28 +133,23 @@ def limb_with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[
     return key, limb_by_itself(stood, TURNS)
 
 
-def arranged_classes(
-    classes: Sequence[Class], motion: RequiredMotion, limbs: int, drives: int
-) -> Iterator[ArrangedClasses]:
-    """Sets of classes whose constraints leave just the motion at home, in each arrangement in which they do."""
+def arranged_classes(sets: Iterable[tuple[Class, ...]], motion: RequiredMotion) -> Iterator[ArrangedClasses]:
+    """Those of the sets, one class for each limb, that leave just the motion at home, in each such arrangement."""
 
     @cache
-    def wrenches(index: int, slot: int, place: int, line: End) -> FloatArray:
-        chain = classes[index][0].type.chain
-        return constraints_of(home_twists(chain, TURNS[place], slot, line)).wrenches
+    def wrenches(limb: CandidateLimb, slot: int, place: int, line: End) -> FloatArray:
+        return constraints_of(home_twists(limb.type.chain, TURNS[place], slot, line)).wrenches
 
-    for indices in combinations_with_replacement(range(len(classes)), limbs):
-        chosen = tuple(classes[index] for index in indices)
-        if sum(len(members[0].type.driven) for members in chosen) != drives:
-            continue
+    for chosen in sets:
+        simplest = [members[0] for members in chosen]
         for places in _placements(chosen):
-            chains = [members[0].chains[place] for members, place in zip(chosen, places, strict=True)]
+            chains = [limb.chains[place] for limb, place in zip(simplest, places, strict=True)]
             for line in LINES:
                 shared = sharing(chains, line) if line else ()
                 if line and not shared:
                     continue
-                lines: list[End] = [line if slot in shared else "" for slot in range(limbs)]
-                if together(list(map(wrenches, indices, range(limbs), places, lines))).leave(motion):
+                lines: list[End] = [line if slot in shared else "" for slot in range(len(chosen))]
+                if together(list(map(wrenches, simplest, range(len(chosen)), places, lines))).leave(motion):
                     yield ArrangedClasses(chosen, places, line)
                     break
 

@@ -8,11 +8,10 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import combinations_with_replacement
 
 from assur.synthesis.assembly import MechanismFamily, Range, Sought, assemble
-from assur.synthesis.classes import Class, are_equal, classes, number_of_members
-from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, sets_of_classes
+from assur.synthesis.classes import Class, chosen_classes, classes, number_of_members
+from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, sets_leaving
 from assur.synthesis.isomorphism import Key
 from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
 from assur.synthesis.limb_motions import LimbVerdict, verdict
@@ -80,20 +79,20 @@ class SearchPlan:
         return sum(some.members for some in self.sets)
 
 
-def plans(asked: SynthesisQuestion, step: Step, also: Sequence[Key] = ()) -> Iterator[SearchPlan]:
+def plans(asked: SynthesisQuestion, steps: Sequence[Step], also: Sequence[Key] = ()) -> Iterator[SearchPlan]:
     """A plan for each motion with the name that is asked for, made when it is its turn.
 
     Args:
         asked: the question.
-        step: called with (limbs looked at, of how many), where these take long.
+        steps: one for each plan, called with (limbs or sets of classes looked at, of how many).
         also: canonical forms of mechanisms that are listed however many joints they have, as known ones are.
     """
     if asked.parasitic:
-        yield _parasitic(asked, also)
+        yield _parasitic(asked, steps[0], also)
     elif asked.rows:
-        yield from (_following(asked, row, also) for row in asked.rows)
+        yield from (_following(asked, row, step, also) for row, step in zip(asked.rows, steps, strict=True))
     else:
-        yield _by_directions(asked, step, also)
+        yield _by_directions(asked, steps[0], also)
 
 
 def _by_directions(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) -> SearchPlan:
@@ -115,10 +114,7 @@ def _by_directions(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) ->
     known = (*known_mechanisms(asked.motion), *also)
     sought = _sought(asked, asked.motion, placements(asked.motion, asked.limbs), known)
     sets = (
-        _class_set(some, sought)
-        for some in combinations_with_replacement(usable, asked.limbs)
-        if sum(len(members[0].type.driven) for members in some) == asked.drives
-        and (are_equal(some) or not asked.symmetric)
+        _class_set(some, sought) for some in chosen_classes(usable, asked.limbs, asked.drives, equal=asked.symmetric)
     )
     return SearchPlan(
         usable,
@@ -129,7 +125,7 @@ def _by_directions(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) ->
     )
 
 
-def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key]) -> SearchPlan:
+def _following(asked: SynthesisQuestion, row: VirtualChain, step: Step, also: Sequence[Key]) -> SearchPlan:
     """By limbs that follow a virtual chain."""
     every = following_types(row, asked.max_joints, asked.actuators, idle=asked.idle)
     types = tuple(filter(asked.wants, every))
@@ -138,13 +134,20 @@ def _following(asked: SynthesisQuestion, row: VirtualChain, also: Sequence[Key])
     known = (*known_mechanisms(row), *also)
     sets = (
         _class_set(chosen, dataclasses.replace(_sought(asked, row, (places,), known), reached=True), row.row)
-        for chosen, places in sets_of_classes(usable, row, asked.limbs, asked.drives)
-        if are_equal(chosen) or not asked.symmetric
+        for chosen, places in sets_leaving(_sets(usable, asked, step), row)
     )
     return SearchPlan(usable, tuple(sets), Counter({"not the motion": len(types) - len(limbs)}))
 
 
-def _parasitic(asked: SynthesisQuestion, also: Sequence[Key]) -> SearchPlan:
+def _sets(usable: Sequence[Class], asked: SynthesisQuestion, step: Step) -> Iterator[tuple[Class, ...]]:
+    """One class for each limb, counted."""
+    whole = len(usable) if asked.symmetric else math.comb(len(usable) + asked.limbs - 1, asked.limbs)
+    for done, chosen in enumerate(chosen_classes(usable, asked.limbs, asked.drives, equal=asked.symmetric)):
+        step(done, whole)
+        yield chosen
+
+
+def _parasitic(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) -> SearchPlan:
     """By constraints at home, which leave the motion that is asked for."""
     every = limb_classes(asked.motion, asked.actuators, passive=asked.limbs > asked.drives)
     wanted = (tuple(limb for limb in some if asked.wants(limb.type)) for some in every)
@@ -153,8 +156,7 @@ def _parasitic(asked: SynthesisQuestion, also: Sequence[Key]) -> SearchPlan:
     sought = _sought(asked, asked.motion, (), known)
     sets = (
         ClassSet(one.chosen, len(one.chosen[0]) if asked.symmetric else one.members, partial(moved, one, sought))
-        for one in arranged_classes(usable, asked.motion, asked.limbs, asked.drives)
-        if are_equal(one.chosen) or not asked.symmetric
+        for one in arranged_classes(_sets(usable, asked, step), asked.motion)
     )
     return SearchPlan(usable, tuple(sets), seconds=MOVED)
 

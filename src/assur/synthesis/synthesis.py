@@ -81,7 +81,8 @@ def synthesis(
     with kept_families(dataclasses.replace(asked, novelty=""), also) as kept:
         search = _Search(asked, kept)
         try:
-            for number, plan in enumerate(plans(asked, _part(step, 0, parts), also)):
+            before = [_part(step, number, parts) for number in range(0, parts, 2)]
+            for number, plan in enumerate(plans(asked, before, also)):
                 _refuse_more(most, plan)
                 search.run(plan, _part(step, 2 * number + 1, parts))
         except KeyboardInterrupt:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from assur.errors import UsageError
@@ -42,12 +43,8 @@ def constraining_together(
         RoutesDisagreeError: rules and twists differ.
     """
     classes = {limb.type.key: (limb,) for limb in limbs}
-    keys = sorted((limb.type.key for limb in limbs), key=repr)
-    every = [
-        arranged
-        for arranged in arranged_classes(list(classes.values()), asked.motion, asked.limbs, asked.drives)
-        if sorted((some[0].type.key for some in arranged.chosen), key=repr) == keys
-    ]
+    counts = Counter(limb.type.key for limb in limbs)
+    every = list(arranged_classes([tuple(classes[key] for key in counts.elements())], asked.motion))
     if not every:
         said = f"its limbs together leave another motion than {asked.motion.name} at home, however they are placed here"
         return Explanation("motion", said)
