@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 
 import sympy
 
 from assur.derivation.linear import ONE, Form, divided, never_zero, projected, rank, replaced, solved, tidy, value_of
+from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
@@ -23,8 +25,8 @@ class LinearSpan:
     """Sums of multiples of linear equations.
 
     Args:
-        rows: name of an equation -> its form, that vanishes; one that follows of those before it is left out, but for
-            those that a length along a vector that turns is projected by.
+        rows: name of an equation -> its form, that vanishes; one that follows of those before it is used where these
+            alone divide by what may vanish, but for those that a length along a vector that turns is projected by.
         unknowns: whose coefficients are compared one by one; all else is known.
         witness: tells what vanishes.
         lengths: unknowns along unit vectors, whose equations are projected on these first: then nothing is divided.
@@ -43,7 +45,7 @@ class LinearSpan:
         lengths: Sequence[sympy.Symbol] = (),
     ) -> None:
         self._witness, self._unknowns, self._lengths = witness, unknowns, lengths
-        self._rows: dict[str, Form] = {}
+        self._every, self._rows = dict(rows), dict[str, Form]()
         for name, form in rows.items():
             turned = any(form[own].free_symbols for own in lengths if own in form)
             if turned or not self._spanned(form, self._rows):
@@ -51,20 +53,46 @@ class LinearSpan:
 
     def multipliers(self, target: Form) -> Multipliers:
         """Of each equation in a form. Errors: NoIdentityError."""
-        rows = dict(self._rows)
         if (same := self._one_of_them(target)) is not None:
             return same
-        if not self._spanned(target, rows):
-            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(rows)}")
-        for name in self._rows:
-            fewer = {other: form for other, form in rows.items() if other != name}
+        ways: list[Multipliers] = []
+        for rows in self._ways(target) if self._spanned(target, self._rows) else ():
+            with suppress(NoIdentityError):
+                ways.append(self._shares(target, rows))
+                if not _divides(ways[-1]):
+                    return ways[-1]
+        if not ways:
+            raise NoIdentityError(f"{value_of(target)} does not follow of {', '.join(self._rows)}")
+        return self._together(ways) or ways[0]
+
+    def _ways(self, target: Form) -> Iterator[dict[str, Form]]:
+        """Equations of which a form follows: few, then all of them where lengths are projected, then few others."""
+        first = self._fewest(target, self._rows)
+        yield first
+        if self._lengths and len(first) < len(self._rows):
+            yield self._rows
+        turned = {name: self._every[name] for name in reversed(self._every)}
+        for rows in (self._fewest(target, self._every), self._fewest(target, turned)):
+            if rows.keys() != first.keys():
+                yield rows
+
+    def _fewest(self, target: Form, rows: Mapping[str, Form]) -> dict[str, Form]:
+        """Some of the rows, without the first ones where the others do."""
+        kept = dict(rows)
+        for name in rows:
+            fewer = {other: form for other, form in kept.items() if other != name}
             if self._spanned(target, fewer):
-                rows = fewer
-        shares = self._shares(target, rows)
-        if self._lengths and len(rows) < len(self._rows) and _divides(shares):
-            whole = self._shares(target, self._rows)
-            return shares if _divides(whole) else whole
-        return shares
+                kept = fewer
+        return kept
+
+    def _together(self, ways: Sequence[Multipliers]) -> Multipliers | None:
+        """Ways that divide by components of one direction, by the square of its length; None where that may vanish."""
+        below = [sympy.lcm_list([sympy.fraction(sympy.together(own))[1] for own in shares.values()]) for shares in ways]
+        square = shorter({ONE: sum((own**2 for own in below), ZERO)}, self._witness.circles, self._witness)[ONE]
+        if not never_zero(square):
+            return None
+        parts = (times(shares, own**2 / square) for shares, own in zip(ways, below, strict=True))
+        return {name: tidy(share) for name, share in total_of(*parts).items()}
 
     def _one_of_them(self, target: Form) -> Multipliers | None:
         """Of a form that is an equation by any names of its coefficients, or that with its sign turned."""

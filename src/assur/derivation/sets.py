@@ -10,8 +10,9 @@ from itertools import combinations
 
 import sympy
 
-from assur.derivation.linear import Form, divided, never_zero, rank, solved, sparse
+from assur.derivation.linear import Form, combined, divided, never_zero, rank, solved, sparse
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 
@@ -40,7 +41,8 @@ def next_set(
             others += waiting
             if whole - rank(forms, others, witness) >= more + sum(direction.freedoms for direction in chosen):
                 _, own = solved(forms, others, witness)
-                kept = _independent(own, [unknown for direction in chosen for unknown in direction.unknowns], witness)
+                inside = [unknown for direction in chosen for unknown in direction.unknowns]
+                kept = [_steady(form, own, inside, witness) for form in _independent(own, inside, witness)]
                 return chosen, kept if more else sparse([*map(_whole, kept)], witness, everywhere=True)
     names = ", ".join(direction.name for direction in left)
     if blocked := [own.name for own in after if any({*own.unknowns} & form.keys() for form in forms)]:
@@ -75,6 +77,21 @@ def _independent(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witnes
         if rank([*kept, form], unknowns, witness) > len(kept):
             kept.append(form)
     return kept
+
+
+def _steady(form: Form, forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> Form:
+    """An equation of one unknown whose coefficient turns with what is given, by the sum of squares of all that say it.
+
+    A coefficient that is one component of a direction vanishes somewhere; of the whole direction the length does not.
+    """
+    inside = [key for key in unknowns if key in form]
+    if len(inside) > 1 or never_zero(form[inside[0]]):
+        return form
+    total: Form = {}
+    for other in (other for other in forms if [key for key in unknowns if key in other] == inside):
+        total = combined(total, other[inside[0]], other, witness)
+    total = shorter(total, witness.circles, witness)
+    return divided(total) if never_zero(total[inside[0]]) else form
 
 
 def _whole(form: Form) -> Form:

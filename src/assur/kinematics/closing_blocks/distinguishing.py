@@ -108,13 +108,13 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
     solved = _solved(ordered, problem, _targets(ordered, known))
+    _, joined, apart = _compared(ordered, solved, known)
+    told, telling = bool(np.all(np.any(apart, axis=1))), len(joined)
+    known = (*known, *triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)), problem))
+    known = known if told else tuple(sorted(known, key=lambda sign: len(sign.joints)))
     answers, joined, apart = _compared(ordered, solved, known)
-    if not np.all(np.any(apart, axis=1)):
-        more = triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)))
-        finer = tuple(sorted((*known, *more), key=lambda sign: len(sign.joints)))
-        compared = _compared(ordered, solved, finer)
-        if np.sum(np.any(compared[2], axis=1)) > np.sum(np.any(apart, axis=1)):
-            known, (answers, joined, apart) = finer, compared
+    if told:  # only what tells further solutions apart makes further names
+        apart[:, telling:] = False
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
     near = ScrewColumns(ordered, np.concatenate([assemblies_by_chance(ordered), *(own.values for own in answers)]))
     last = [problem == "direct" and flat for flat in _flat_loops(known, joined, near)]

@@ -2,6 +2,8 @@
 
 A block need not close piece by piece for its determinant to be a product. Of two parallelograms in a row the second
 may move the platform along one line whatever its angle; then the first alone decides about what is left across it.
+Where that line turns with an input, it stands still seen from the link that the input moves: so what is left is seen
+from all links that stand still where a problem is held.
 """
 
 from __future__ import annotations
@@ -13,30 +15,52 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closing_blocks.blocks import SMALL
+from assur.kinematics.closing_blocks.blocks import SMALL, standing_links
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.signs import BlockSign
 from assur.kinematics.closing_blocks.spaces import span
 from assur.kinematics.closing_blocks.strokes import MERGED
+from assur.kinematics.modes import Problem
 
 FloatArray = NDArray[np.float64]
 MOST_RATES = 9
 """Rates of a block up to which sets of them are tried."""
+MOST_ROWS = 3
+"""Rates up to which sets of as many rows are tried."""
 
 
-def triangular_factors(known: Sequence[object], screws: ScrewColumns) -> list[BlockSign]:
+def triangular_factors(known: Sequence[object], screws: ScrewColumns, problem: Problem) -> list[BlockSign]:
     """Further factors of the determinants of blocks; each has other signs, at assemblies, than all that are known."""
-    blocks = [sign for sign in known if isinstance(sign, BlockSign)]
+    record, blocks = screws.record, [sign for sign in known if isinstance(sign, BlockSign)]
+    standing = [link for link, own in standing_links(record, problem, False).items() if own == record.base != link]
     met = {_senses(sign, screws) for sign in blocks}
     factors = []
     for sign in blocks:
         if sign.block.spins or not 1 < sign.rates.shape[1] <= MOST_RATES:
             continue
-        for factor in _factors(sign, screws):
+        parts = [*_factors(sign, screws)]
+        turned = (own for part in parts for link in standing for own in _seen_from(link, part, screws))
+        for factor in (*parts, *(factor for own in turned for factor in _factors(own, screws))):
             if (senses := _senses(factor, screws)) not in met:
                 met.add(senses)
                 factors.append(factor)
     return factors
+
+
+def _seen_from(link: str, sign: BlockSign, screws: ScrewColumns) -> Iterator[BlockSign]:
+    """The same determinant, but for its size, of as many rows in the frame of one link; none of one rate."""
+    count, links = sign.rates.shape[1], (link,) * len(sign.links)
+    if not 1 < count <= MOST_ROWS:
+        return
+    rows = sign.block.derivative(screws, links) @ sign.rates
+    kept = [k for k in range(rows.shape[1]) if np.max(np.abs(rows[:, k])) > SMALL]
+    kept = [k for n, k in enumerate(kept) if not any(np.allclose(rows[:, k], rows[:, i]) for i in kept[:n])]
+    values = np.linalg.det(sign.matrices(screws))
+    for chosen in combinations(kept, count):
+        own = np.linalg.det(rows[:, chosen])
+        ratio = (own @ values) / (values @ values)
+        if abs(ratio) > SMALL and np.allclose(own, ratio * values, rtol=SMALL, atol=SMALL * np.max(np.abs(own))):
+            yield replace(sign, links=links, basis=np.eye(rows.shape[1])[:, chosen])
 
 
 def _factors(sign: BlockSign, screws: ScrewColumns) -> Iterator[BlockSign]:
