@@ -97,6 +97,13 @@ def test_a_figure_is_drawn_once_until_a_source_changes(extension, tmp_path, monk
     assert json.loads((tmp_path / "build" / "gallery" / "fivebar" / "graph.json").read_text())["caption"] in first
 
 
+def test_a_page_of_its_own_words_takes_one_figure(extension, tmp_path):
+    whole = extension("gallery").markdown(tmp_path, "fivebar", "graph")
+    picture = extension("made").fill("before <!-- made: figure fivebar graph --> after", tmp_path)
+    shown = re.fullmatch(r"before (!\[.*) after", picture, re.DOTALL)[1]
+    assert shown in whole
+
+
 def test_the_lines_of_a_figure_make_it(extension, tmp_path, monkeypatch):
     import assur
     from assur.cli.main import main

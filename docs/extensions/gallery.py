@@ -23,9 +23,19 @@ def markdown(root: Path, name: str, *figures: str) -> str:
 
     Where ASSUR_GALLERY is `blank` nothing is computed: titles without captions, above empty pictures.
     """
+    return "\n".join(_section(name, item, folder) for folder, item in _figures(root, name, figures))
+
+
+def picture(root: Path, name: str, figure: str) -> str:
+    """One figure of a mechanism with its caption, for a page that says the rest."""
+    ((folder, drawing),) = _figures(root, name, (figure,))
+    return _picture(name, drawing, folder)
+
+
+def _figures(root: Path, name: str, figures: tuple[str, ...]) -> list[tuple[Path, dict[str, str]]]:
     make, kept = (blank, "blank") if os.environ.get("ASSUR_GALLERY") == "blank" else (drawn, "gallery")
     folder = root / "build" / kept / name
-    return "\n".join(_section(name, item, folder) for item in make(root, folder, name, figures))
+    return [(folder, drawing) for drawing in make(root, folder, name, figures)]
 
 
 def drawn(root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list[dict[str, str]]:
@@ -89,14 +99,11 @@ def _key(root: Path) -> str:
 
 
 def _section(mechanism: str, figure: dict[str, str], folder: Path) -> str:
-    name = figure["name"]
-    title = figure["title"]
+    name, title = figure["name"], figure["title"]
     return f"""
 ## {title[:1].upper()}{title[1:]}
 
-![{title} of {mechanism}](../{folder.relative_to(folder.parents[2]).as_posix()}/{name}.png)
-
-{figure["caption"]}
+{_picture(mechanism, figure, folder)}
 
 ```sh
 assur figures {mechanism} --only {name}
@@ -106,3 +113,8 @@ assur figures {mechanism} --only {name}
 write(assur.load("{mechanism}"), "figures", ["{name}"])
 ```
 """
+
+
+def _picture(mechanism: str, figure: dict[str, str], folder: Path) -> str:
+    place = f"../{folder.relative_to(folder.parents[2]).as_posix()}/{figure['name']}.png"
+    return f"![{figure['title']} of {mechanism}]({place})\n\n{figure['caption']}"

@@ -1,7 +1,7 @@
 """What the pages hold that is made at build time: a comment `<!-- made: NAME WORDS -->` is replaced by Markdown.
 
-`gallery`: the figures of a mechanism. `notebook`: a notebook with its outputs. `packages`: every module and its idea.
-`layers`: the order of imports. `indices`: the table of indices.
+`gallery`: the figures of a mechanism. `figure`: one of them. `notebook`: a notebook with its outputs. `packages`: every
+module and its idea. `layers`: the order of imports. `indices`: the table of indices.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from sphinx.application import Sphinx
 
 MAKERS: dict[str, Callable[..., str]] = {
     "gallery": gallery.markdown,
+    "figure": gallery.picture,
     "notebook": notebook.markdown,
     "packages": packages.markdown,
     "layers": packages.layers,

@@ -89,6 +89,19 @@ def test_work_of_loads_is_energy_of_strains_and_shares_are_whole(bent):
         assert sum(split.values()) == pytest.approx(1.0)
 
 
+def test_what_a_stiffer_link_gains_lies_between_bounds_by_its_share(bent):
+    """By the least complementary energy, from the softer one to the stiffer one and back."""
+    shares = bent.shares()
+    link = max(bent.record.machine.materials, key=shares.links.get)
+    machine, times = bent.record.machine, 3.0
+    material = machine.materials[link]
+    stiffer = {**machine.materials, link: replace(material, elasticity=times * material.elasticity)}
+    after = stiffness_at(replace(bent.record, machine=replace(machine, materials=stiffer)), bent.values).shares()
+    most, least = 1.0 - shares.links[link] * (1.0 - 1.0 / times), 1.0 / (1.0 + (times - 1.0) * after.links[link])
+    assert least - 1e-9 <= after.energy / shares.energy <= most + 1e-9
+    assert after.energy < shares.energy
+
+
 def test_as_links_stiffen_only_the_actuators_are_left(mechanism):
     values = place(mechanism)
     motors = stiffness_at(bending(mechanism), values).actuator_only
