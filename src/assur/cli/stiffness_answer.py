@@ -18,6 +18,7 @@ from assur.cli.quantities import mode_words
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import Status
+from assur.machine.elasticity.energies import ranked
 from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
 from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.stiffness import Stiffness
@@ -160,7 +161,7 @@ def _energies(answer: StiffnessAnswer) -> Iterable[RenderableType]:
     shares = answer.shares
     if shares is not None:
         yield ""
-        rows = [(name, f"{share:.1%}") for name, share in sorted(shares.links.items(), key=lambda pair: -pair[1])]
+        rows = [(name, f"{share:.1%}") for name, share in ranked(shares.links)]
         yield table(("of the strain energy in", "share"), rows, left=("of the strain energy in",))
         kinds = ", ".join(f"{name} {share:.1%}" for name, share in shares.kinds.items() if name != ACTUATORS)
         if any(share for name, share in shares.kinds.items() if name != ACTUATORS):
@@ -188,7 +189,7 @@ def _scaled(moved: Sequence[float]) -> NDArray[np.float64]:
 
 def _strained(shares: Mapping[str, float]) -> str:
     """The two links, or the actuators, that are strained most."""
-    most = sorted(shares.items(), key=lambda pair: -pair[1])[:2]
+    most = ranked(shares)[:2]
     return ", ".join(f"{name} {share:.0%}" for name, share in most if share > 0.01)
 
 

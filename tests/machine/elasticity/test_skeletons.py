@@ -48,7 +48,10 @@ def test_up_turns_the_section(zeng):
 def test_what_is_not_known_is_named(zeng):
     with pytest.raises(UsageError, match="link link9 of zeng2019: a profile without a material") as error:
         skeleton(changed(zeng, "link9", material=None), "link9")
-    assert error.value.hint == 'say it in [links]: link9 = { ..., material = "steel" }; or rigid = true'
+    lines = zeng.file.read_text(encoding="utf-8").splitlines()
+    number = next(number for number, line in enumerate(lines, 1) if line.startswith("link9"))
+    said = f"say it in mechanism.toml, line {number}, [links]: link9 = {{ ..., "
+    assert error.value.hint == said + 'material = "steel" }; or rigid = true'
     soft = replace(zeng, machine=replace(zeng.machine, materials={"steel": Material("steel", 7850.0)}))
     with pytest.raises(UsageError, match="material steel of zeng2019: no E and no nu, and link link9 is made of it"):
         skeleton(soft, "link9")

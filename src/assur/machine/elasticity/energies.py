@@ -39,6 +39,15 @@ class EnergyShares:
         return {name: share for name, share in self.links.items() if name not in (ACTUATORS, JOINTS)}
 
 
+def ranked(shares: Mapping[str, float]) -> list[tuple[str, float]]:
+    """Names with their shares, the largest first; equal ones, but for rounding, in the order of the file.
+
+    >>> ranked({"leg1.rod": 0.25, "leg2.rod": 0.25 + 1e-12, "arm": 0.5})
+    [('arm', 0.5), ('leg1.rod', 0.25), ('leg2.rod', 0.250000000001)]
+    """
+    return sorted(shares.items(), key=lambda pair: -round(pair[1], 9))
+
+
 def energy_shares(state: Strains, moved: FloatArray) -> EnergyShares:
     """Energy of beams and springs at the first configuration of a structure, of unknowns (U, k), summed over k."""
     own, springs = state.structure, state.structure.springs

@@ -13,6 +13,7 @@ from assur.errors import UsageError
 from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.beams import Beam, beam, given_beam
 from assur.machine.masses.bars import joint_points, link_bars
+from assur.model.file.place import entry_hint
 from assur.model.machine_data import Material
 from assur.model.mechanism import MechanismRecord
 
@@ -73,7 +74,10 @@ def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSk
     points = _points(record, link)
     size = float(np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)))
     if size == 0.0:
-        raise UsageError(f"link {link} of {record.name}: its bars have no length", hint="say of it: rigid = true")
+        raise UsageError(
+            f"link {link} of {record.name}: its bars have no length",
+            hint=entry_hint(record, "links", link, "rigid = true"),
+        )
     nodes = _Nodes(SAME * size)
     for point in ends.reshape(-1, 3):
         nodes.place(point)
@@ -93,7 +97,7 @@ def skeleton(record: MechanismRecord, link: str, *, shear: bool = True) -> BarSk
         if axes is None:
             raise UsageError(
                 f"link {link} of {record.name}: up of {profile.name} is along its bar",
-                hint="say in [links] a direction across it: up = [0, 0, 1]",
+                hint=f"{entry_hint(record, 'links', link, 'up = [0, 0, 1]')}, a direction across it",
             )
         bars.append(SkeletonBar(pair, beam(profile, material, length, shear=shear), axes))
     return BarSkeleton(np.array(nodes.points), tuple(bars), ties)
@@ -155,16 +159,17 @@ class _Nodes:
 def _material(record: MechanismRecord, link: str) -> Material:
     name = record.machine.links[link].material
     if name is None:
+        said = 'material = "steel"'
         raise UsageError(
             f"link {link} of {record.name}: a profile without a material",
-            hint=f'say it in [links]: {link.rpartition(".")[2]} = {{ ..., material = "steel" }}; or rigid = true',
+            hint=f"{entry_hint(record, 'links', link, said)}; or rigid = true",
         )
     material = record.machine.materials[name]
     lacking = [key for key, value in (("E", material.elasticity), ("nu", material.poisson)) if value is None]
     if lacking:
         raise UsageError(
             f"material {name} of {record.name}: no {' and no '.join(lacking)}, and link {link} is made of it",
-            hint=f"say it in [materials]: {name} = {{ ..., E = 210e9, nu = 0.3 }}, E in Pa",
+            hint=f"{entry_hint(record, 'materials', name, 'E = 210e9, nu = 0.3')}, E in Pa",
         )
     return material
 
@@ -198,7 +203,7 @@ def _connected(record: MechanismRecord, link: str, pairs: list[tuple[int, int]],
     if len(reached) < count:
         raise UsageError(
             f"link {link} of {record.name}: its bars do not hang together",
-            hint="add one between them to its bars, or say of it: rigid = true",
+            hint=f"add one between them to its bars; or {entry_hint(record, 'links', link, 'rigid = true')}",
         )
 
 

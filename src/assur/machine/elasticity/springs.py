@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.validation.check import METRES
+from assur.model.file.place import entry_hint
 from assur.model.machine_data import RIGID, Actuator
 from assur.model.mechanism import MechanismRecord
 
@@ -142,10 +143,9 @@ def _actuators(record: MechanismRecord) -> list[tuple[int, str, Actuator]]:
             known.append((drive.coordinate.index, drive.name, actuator))
     if lacking:
         label, kind = lacking[0]
-        told = "1e7 }, in N/m" if kind == "length" else "1e5 }, in N m/rad"
-        key = label if label.count(".") == 0 or label.split(".")[0] in record.joints else label.split(".", 1)[1]
+        size, unit = ("1e7", "N/m") if kind == "length" else ("1e5", "N m/rad")
         raise UsageError(
             f"{record.name}: no stiffness of {', '.join(name for name, _ in lacking)}",
-            hint=f"say it in [actuators]: {key} = {{ stiffness = {told}",
+            hint=f"{entry_hint(record, 'actuators', label, f'stiffness = {size}')}, in {unit}",
         )
     return known

@@ -18,6 +18,7 @@ from assur.kinematics import border
 from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.machine.forces.actuator_forces import ActuatorForces, forces_at
 from assur.machine.forces.loads import load_of
+from assur.model.file.place import entry_hint
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 
@@ -179,7 +180,7 @@ def force_limits(record: MechanismRecord) -> FloatArray:
     known = [record.machine.actuators.get(label) for label in labels]
     lacking = [label for label, own in zip(labels, known, strict=True) if own is None or own.force is None]
     if lacking:
-        hint = f"say it in [actuators]: {lacking[0].rpartition('.')[2]} = {{ force = 60 }}, in N or N m"
+        hint = f"{entry_hint(record, 'actuators', lacking[0], 'force = 60')}, in N or N m"
         raise UsageError(f"{record.name}: no largest force of {', '.join(lacking)}", hint=hint)
     return np.array([own.force for own in known if own is not None], dtype=float)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.model.file.place import entry_hint, place
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -52,10 +53,11 @@ def link_bars(record: MechanismRecord, link: str) -> tuple[LinkBar, ...]:
     if not pairs:
         ends = [name for name in points if record.joints[name].type.turning]
         if len(ends) != 2:
+            pair = [f'"{place(record, "joints", name)[-1]}"' for name in (*ends, *points)[:2]]
             raise UsageError(
                 f"link {link} of {record.name}: its bars are not known; it has {len(ends)} joints that are not "
                 f"prismatic ({', '.join(ends) or 'none'})",
-                hint=f'say in [links] between which: {link} = {{ ..., bars = [["A", "B"]] }}',
+                hint=entry_hint(record, "links", link, f"bars = [[{', '.join(pair)}]]"),
             )
         pairs = ((ends[0], ends[1]),)
     return tuple(LinkBar(pair, np.array([points[name] for name in pair])) for pair in pairs)

@@ -14,6 +14,7 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.masses.bars import link_bars
 from assur.machine.masses.rigid_body import RigidBody, spread
 from assur.machine.masses.slips import slips
+from assur.model.file.place import entry_hint
 from assur.model.machine_data import LinkData, Profile
 from assur.model.mechanism import MechanismRecord
 
@@ -86,7 +87,7 @@ def all_masses(record: MechanismRecord) -> Masses:
     if known.lacking:
         raise UsageError(
             f"{record.name}: no mass of {', '.join(known.lacking)}",
-            hint=f"say it in [links], as {known.lacking[0].rpartition('.')[2]} = {{ mass = 1.2 }}, in kg",
+            hint=f"{entry_hint(record, 'links', known.lacking[0], 'mass = 1.2')}, in kg",
         )
     return known
 
@@ -175,6 +176,6 @@ def _density(record: MechanismRecord, link: str, data: LinkData) -> float:
     if density is None:
         raise UsageError(
             f"link {link} of {record.name}: no density of {data.material}",
-            hint=f"say it in [materials]: {data.material} = {{ density = 7850 }}, in kg/m3",
+            hint=f"{entry_hint(record, 'materials', data.material or '', 'density = 7850')}, in kg/m3",
         )
     return density

@@ -68,5 +68,22 @@ def input_place(record: MechanismRecord, coordinate: Coordinate) -> KeyPath:
     return (*table, written[0] if written else local)
 
 
+def entry_hint(record: MechanismRecord, table: str, name: str, keys: str) -> str:
+    """What to write, and where: keys that the entry of a link or an actuator lacks, for all limbs of a template.
+
+    >>> from assur.model.registry import load_record
+    >>> entry_hint(load_record("orthoglide"), "actuators", "leg2.A", "force = 60").partition("[")[2]
+    'actuators]: A = { ..., force = 60 }'
+    """
+    path = place(record, table, name)
+    if table == "actuators":  # of the file, also for a template's joints
+        path = (table, path[-1])
+    lines = record.description.source.lines if record.description else {}
+    line = next((f", line {lines[part]}" for part in (path, path[:-1]) if part in lines), "")
+    more = "..., " if path in lines else ""
+    key = path_text(path[-1:])
+    return f"say it in {record.file.name}{line}, [{path_text(path[:-1])}]: {key} = {{ {more}{keys} }}"
+
+
 def _file(record: MechanismRecord) -> FileEntry | None:
     return record.description.form.entry if record.description else None

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from assur.figures.strain_colours import drawn_stiffness
-from assur.machine.elasticity.energies import EnergyShares
+from assur.machine.elasticity.energies import EnergyShares, ranked
 from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.stiffness import Stiffness
 from assur.report.findings import Findings
@@ -62,7 +62,7 @@ def _shared(shares: EnergyShares) -> Iterator[Table]:
     whole |= {f"joint {name}": share * shares.links[JOINTS] for name, share in shares.joints.items()}
     several = sum(share > 0.0 for share in shares.kinds.values()) > 1
     for title, own in (("What gives way", whole), ("Kinds of strain", shares.kinds if several else {})):
-        rows = tuple((name, f"{share:.1%}") for name, share in sorted(own.items(), key=lambda pair: -pair[1]))
+        rows = tuple((name, f"{share:.1%}") for name, share in ranked(own))
         if rows:
             yield Table(title, ("in", "share"), rows, caption, folded=len(rows) > 8, known_by=FLOATING)
 
