@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 
 import assur
 from assur.figures import catalogue as figures
@@ -34,6 +35,10 @@ def test_the_darkest_link_is_strained_most(drawn):
     assert names[0] == max(data["links"], key=data["links"].get) == "link12"
     assert [bar.get_width() for bar in bars.patches] == pytest.approx([100 * data["links"][name] for name in names])
     assert sum(line.get_color() == "#800026" for line in figure.axes[0].lines) == 1
+    drawn_links = {line.get_color() for line in figure.axes[0].lines}
+    assert {
+        to_hex(bar.get_facecolor()) for bar, name in zip(bars.patches, names, strict=True) if name != "actuators"
+    } <= drawn_links
 
 
 def test_vibrations_are_drawn_as_far_apart_as_they_move(drawn):

@@ -35,8 +35,10 @@ def symbol(name: str) -> str:
 
 
 def value_words(context: Context, name: str, value: float) -> str:
-    """A value of a coordinate with its unit, e.g. "300 mm" or "−30°"."""
-    return f"{minus(f'{shown(context, name, value):.6g}')}{unit_after(context, angle=is_angle(name))}"
+    """A value of a coordinate with its unit, e.g. "300 mm" or "−30°"; an angle to four decimals."""
+    number = shown(context, name, value)
+    rounded = round(number, 4) + 0.0 if is_angle(name) else number
+    return f"{minus(f'{rounded:.6g}')}{unit_after(context, angle=is_angle(name))}"
 
 
 def unit_after(context: Context, *, angle: bool) -> str:

@@ -17,6 +17,7 @@ from assur.figures.spec import Drawing, FigureKind
 from assur.figures.strain_colours import drawn_stiffness, not_held, strain_colours
 from assur.figures.style import BLUE, GREY, SKY, SMALL, TEXT
 from assur.figures.vibrations import usual_camera
+from assur.machine.elasticity.energies import ranked
 from assur.machine.elasticity.stiffness import Stiffness
 from assur.scene.skeleton import Skeleton
 
@@ -27,8 +28,6 @@ SEEN = 0.04
 """Share of the longest below which a semi-axis is a point on paper: it has no letter."""
 MOST = 8
 """Bars of links; what is left is one more."""
-ROUNDED = 1e-9
-"""In %: what is less is rounding."""
 BESIDE = 70.0
 """Width in mm that the mechanism needs beside the bars."""
 BAR, HEAD, FOOT, SIDE = 4.2, 6.0, 10.0, 24.0
@@ -44,8 +43,8 @@ def _caption(context: Context) -> str:
     return (
         "How the platform gives way while the actuators hold their inputs. (a) Displacements of its point under a force"
         f" of one size in every direction, not to scale; principal stiffness {told} N/µm. Darker links are strained"
-        " more. (b) Shares of the strain energy under forces of one size along x, y and z, summed, by links, and (c) by"
-        " kinds of strain."
+        " more, in the colours of their bars. (b) Shares of the strain energy under forces of one size along x, y and"
+        " z, summed, by links, and (c) by kinds of strain."
     )
 
 
@@ -66,13 +65,18 @@ def _draw(context: Context) -> Drawing:
     page = canvas(context.page, height)
     view = inside(camera, cloud, (6.0, height - tall + 10.0, wide - 12.0, tall - 14.0))
     letters = Letters(page)
-    _draw_machine(page, view, context, shares.bent, letters)
+    title = np.array([wide / 2, height - tall + 3.5]) * POINTS
+    letters.avoid_disc(title, TEXT)
+    colours = strain_colours(shares.bent, max(shares.bent.values(), default=1.0))
+    pen = Pen(width=1.8, symbol=0.7, colours=dict.fromkeys(context.record.links, GREY) | colours)
+    draw_ground(page, view, context.skeleton, context.companion, letters)
+    draw_bodies(page, view, context.skeleton, letters, pen)
     _draw_ellipsoid(page, view, point, ellipsoid, solved.translational[0][0], letters)
-    page.text(np.array([wide / 2, height - tall + 3.5]) * POINTS, "(a)", fontsize=TEXT)
+    page.text(title, "(a)", fontsize=TEXT)
     top, left = (height if beside else height - tall), (wide if beside else 0.0)
     for letter, bars, own, words in zip("bc", lists, heights, ("by links", "by kinds"), strict=True):
         place = (left + SIDE, top - own + FOOT, context.page - left - SIDE - 12.0, own - HEAD - FOOT)
-        _draw_bars(page.figure, place, (context.page, height), bars, f"({letter}) energy {words} (%)")
+        _draw_bars(page.figure, place, (context.page, height), bars, f"({letter}) energy {words} (%)", colours)
         top -= own
     stiff, ways = (part[0] for part in solved.translational)
     data = {"stiffness": stiff, "directions": ways, "links": shares.links, "kinds": shares.kinds}
@@ -92,16 +96,10 @@ def _point(skeleton: Skeleton) -> FloatArray:
 
 def _lists(shares: Mapping[str, float]) -> list[tuple[str, float]]:
     """The largest first, then what the others have together."""
-    own = sorted(shares.items(), key=lambda pair: -pair[1])
+    own = ranked(shares)
     if len(own) <= MOST + 1:
         return own
     return [*own[:MOST], (f"{len(own) - MOST} others", sum(share for _, share in own[MOST:]))]
-
-
-def _draw_machine(page: Canvas, view: View, context: Context, shares: Mapping[str, float], letters: Letters) -> None:
-    colours = dict.fromkeys(context.record.links, GREY) | strain_colours(shares, max(shares.values(), default=1.0))
-    draw_ground(page, view, context.skeleton, context.companion, letters)
-    draw_bodies(page, view, context.skeleton, letters, Pen(width=1.8, symbol=0.7, colours=colours))
 
 
 def _draw_ellipsoid(
@@ -131,17 +129,18 @@ def _draw_bars(
     page: tuple[float, float],
     bars: list[tuple[str, float]],
     words: str,
+    colours: Mapping[str, str],
 ) -> None:
-    """Lying bars in a place (left, bottom, width, height) in mm of a page (width, height)."""
+    """Lying bars in a place (left, bottom, width, height) in mm of a page (width, height), in colours by name."""
     axes = figure.add_axes((place[0] / page[0], place[1] / page[1], place[2] / page[0], place[3] / page[1]))
     shares = [100.0 * share for _, share in bars]
-    axes.barh(range(len(bars)), shares, color=BLUE, height=0.65)
+    axes.barh(range(len(bars)), shares, color=[colours.get(name, BLUE) for name, _ in bars], height=0.65)
     axes.set_yticks(range(len(bars)), [name for name, _ in bars], fontsize=SMALL)
     axes.invert_yaxis()
     axes.set_xlabel(words, fontsize=TEXT, labelpad=1.5)
     axes.set_xlim(0.0, max(shares, default=1.0))
     for row, share in enumerate(shares):
-        axes.text(share, row, f" {share if share > ROUNDED else 0.0:.3g}", va="center", fontsize=SMALL)
+        axes.text(share, row, f" {share:.1f}", va="center", fontsize=SMALL)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(left=False, labelsize=SMALL)
 

@@ -232,9 +232,17 @@ def with_bar(
     if isinstance(image.norm, LogNorm):
         height = image.figure.bbox.height * bar.get_position().height
         ticks = apart(round_levels(image.norm, 6), image.norm, height / (1.3 * SMALL))
-        colours.set_ticks(ticks, labels=[f"{tick:.4g}" for tick in ticks])
+        colours.set_ticks(ticks, labels=[_tick_words(tick) for tick in ticks])
         colours.minorticks_off()
     bar.tick_params(labelsize=SMALL)
+
+
+def _tick_words(tick: float) -> str:
+    """A level on a scale by decades; far from 1 it is a power of ten."""
+    mantissa, exponent = f"{tick:.0e}".split("e")
+    if -4 < int(exponent) < 4:
+        return f"{tick:.4g}"
+    return rf"${'' if mantissa == '1' else mantissa + chr(92) + 'cdot'}10^{{{int(exponent)}}}$"
 
 
 def apart(ticks: Sequence[float], colours: Normalize, lines: float) -> list[float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from numpy.typing import NDArray
@@ -20,6 +21,10 @@ from assur.workspace.index_maps import IndexMaps
 FloatArray = NDArray[np.float64]
 MICRO = 1e6
 """N/m in a N/um."""
+EVEN = 1.2
+"""Ends of a bar of colours differ by this factor at least: what changes by less looks even."""
+DOT = 2.2
+"""Diameter in points: what is seen of a dash across the plane."""
 LINES = 11
 """Directions along each axis of a map at most."""
 
@@ -39,25 +44,29 @@ def drawn(context: Context, maps: IndexMaps) -> Drawing:
     titles = ["links and actuators (N/µm)", "actuators alone (N/µm)", "(b) over (a)"]
     figure, pairs = panels(plane, titles, right=15.0)
     whole, motors = maps[LEAST].T / MICRO, maps[MOTORS].T / MICRO
+    images = []
     for pair, values in zip(pairs, (whole, motors, motors / whole), strict=True):
         known = values[np.isfinite(values)]
         low, high = (np.quantile(known, 0.02), known.max()) if len(known) else (0.1, 1.0)
-        image = coloured(pair[0], plane, values, LogNorm(min(low, 0.999 * high), high))
-        with_bar(pair, image, "none held")
-    if first in LENGTHS and second in LENGTHS:
-        _dashes(pairs[0][0], plane, [maps[WAYS[LENGTHS.index(name)]].T for name in (first, second)])
+        images.append(coloured(pair[0], plane, values, LogNorm(min(low, high / EVEN), high)))
+        with_bar(pair, images[-1], "none held")
+    if images[0] and first in LENGTHS and second in LENGTHS:
+        ways = [maps[WAYS[LENGTHS.index(name)]].T for name in (first, second)]
+        for artist in _dashes(pairs[0][0], plane, ways):
+            artist.set_clip_path(images[0].get_clip_path())
     return Drawing(figure, plain(maps.answer()))
 
 
-def _dashes(axes: Axes, plane: MappedPlane, ways: list[FloatArray]) -> None:
-    """Directions (b, a) without sense, each as long as what of it lies in the plane."""
+def _dashes(axes: Axes, plane: MappedPlane, ways: list[FloatArray]) -> list[Artist]:
+    """Directions (b, a) without sense, each as long as what of it lies in the plane, and a dot in its middle."""
     rows, columns = (slice(None, None, max(1, -(-len(nodes) // LINES))) for nodes in (plane.ys, plane.xs))
     x, y = np.meshgrid(plane.xs[columns], plane.ys[rows])
     along, up = (part[rows, columns] for part in ways)
     known = np.isfinite(along) & np.isfinite(up)
     size = 0.9 * min(np.diff(plane.xs[columns]).min(initial=np.inf), np.diff(plane.ys[rows]).min(initial=np.inf))
-    axes.quiver(
+    dashes = axes.quiver(
         x[known], y[known], size * along[known], size * up[known],
         angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=INK, width=0.006,
         headlength=0.0, headaxislength=0.0, headwidth=0.0, minlength=0.0, zorder=6,
     )  # fmt: skip
+    return [dashes, *axes.plot(x[known], y[known], ".", color=INK, markersize=DOT, markeredgewidth=0.0, zorder=6)]

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
@@ -100,7 +101,7 @@ def _draw_deflected(page: Canvas, view: View, ways: Mapping[str, FloatArray], co
     """Curves of what bends over outlines of what is rigid; of a rigid link with many joints the hull of these."""
     for link, curves in ways.items():
         for curve in curves:
-            flat = view(curve)
+            flat = view(_smooth(curve) if link in colours else curve)
             if link in colours:
                 page.line(flat, 1.9, PAPER, 11.0)
                 page.line(flat, 1.5, colours[link], 12.0)
@@ -108,6 +109,12 @@ def _draw_deflected(page: Canvas, view: View, ways: Mapping[str, FloatArray], co
                 page.polygon(hull(flat), "none", INK, 0.8, 10.0)
             elif len(flat) > 1:
                 page.line(flat, 1.0, INK, 10.0)
+
+
+def _smooth(curve: FloatArray) -> FloatArray:
+    """More points (33, 3) of a deflected beam (k, 3), which is a cubic."""
+    along = np.linspace(0.0, 1.0, len(curve))
+    return np.asarray(CubicSpline(along, curve)(np.linspace(0.0, 1.0, 33)))
 
 
 def _data(shape: ModeShape) -> dict[str, object]:

@@ -9,6 +9,7 @@ from assur.figures.spec import FigureKind
 from assur.figures.stiffness_maps import drawn
 from assur.figures.strain_colours import no_springs
 from assur.machine.elasticity.stiffness_maps import stiffness_maps
+from assur.model.pose import LENGTHS
 from assur.workspace.index_maps import IndexMaps
 
 NODES = 30
@@ -26,10 +27,12 @@ def _maps(context: Context) -> IndexMaps:
 
 
 def _caption(context: Context) -> str:
+    dashes = ", with dashes along the direction in which the platform gives way most, points where that is across"
+    of_lengths = set(plane_of_lengths(context, NODES).names) <= set(LENGTHS)
     return (
-        f"The least stiffness against a force without moment ({mode_words(context)}): (a) links and actuators, with"
-        " dashes along the direction in which the platform gives way most, points where that is across the plane; (b)"
-        " if only the actuators gave way; (c) how many times as much that is. Colours by decades."
+        f"The least stiffness against a force without moment ({mode_words(context)}): (a) links and"
+        f" actuators{f'{dashes} the plane' if of_lengths else ''}; (b) if only the actuators gave way; (c) how many"
+        " times as much that is. Colours by decades."
     )
 
 
