@@ -47,7 +47,8 @@ def test_what_is_lacking_or_wrong_is_told(assur_cli, tmp_path):
     bare = assur_cli("stiffness", str(path), "--pose", "0", "224")
     assert bare.code == 2
     assert "no stiffness of A1, A2" in bare.err
-    assert "A1 = { stiffness = 1e5 }, in N m/rad" in bare.err
+    assert "own.toml, line " in bare.err
+    assert "[actuators]: A1 = { ..., stiffness = 1e5 }, in N m/rad" in bare.err
     assert assur_cli("stiffness", "zeng2019").code == 2
     far = assur_cli("stiffness", "zeng2019", "--pose", "0", "0", "9999", "--json")
     assert (far.code, far.json["compliance"], far.json["shares"]) == (4, None, None)
