@@ -8,6 +8,7 @@ import assur
 from assur.figures import catalogue as figures
 from assur.workspace.region import workspace
 from catalogue import each
+from own_machines import ELASTIC, OWN, own_machine
 
 COARSE = 24
 WHOLE = ("fivebar", "planar_3rrr", "zeng2019")
@@ -28,7 +29,7 @@ def few_nodes():
 @cache
 def bare(name):
     """The context of a mechanism without a workspace, for figures that need none."""
-    return figures.Context(assur.load(name))
+    return figures.Context(own_machine(name) if name in (*OWN, *ELASTIC) else assur.load(name))
 
 
 @cache
@@ -42,9 +43,12 @@ def context(request):
     return shared(request.param)
 
 
-@pytest.fixture(params=each())
+@pytest.fixture(params=[*each(), *each((*OWN, *ELASTIC), quick=("hybrid",))])
 def every(request):
-    """Of three mechanisms, in the deep run of every one; give it to figures that are drawn within a second."""
+    """Of four mechanisms, in the deep run of every one; give it to figures that are drawn within a second.
+
+    Those of the catalogue, and some of one's own: of these no companion says how they are drawn.
+    """
     return bare(request.param)
 
 

@@ -43,7 +43,7 @@ def test_the_law_can_fail():
         ("leg1.A", "$A_{1}$"),
         ("leg12.B2", "$B_{12,2}$"),
         ("leg2.crank", "crank 2"),
-        ("leg2.rod1", "rod 1,2"),
+        ("leg2.rod1", "rod 2,1"),
         ("l10", "$l_{10}$"),
         ("theta3", r"$\theta_{3}$"),
         ("O'", "$O$\N{PRIME}"),

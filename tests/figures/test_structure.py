@@ -24,7 +24,7 @@ def test_joints_are_where_the_joint_graph_has_them(every, data_of_every):
 
 def test_every_driven_joint_is_marked(every, data_of_every):
     driven = {name for name, item in data_of_every("structure")["joints"].items() if item["driven"]}
-    assert driven == {item.coordinate.joint for item in every.record.inputs}
+    assert driven == {item.coordinate.joint for item in every.record.drives}
 
 
 def test_every_link_but_the_base_is_drawn(every, data_of_every):

@@ -119,7 +119,8 @@ def canvas(width: float, height: float) -> Canvas:
 def fitted(camera: Camera, cloud: FloatArray, width: float, tallest: float, margin: float = 8.0) -> tuple[View, Canvas]:
     """A canvas at most width x tallest mm for a cloud (k, 3) with margins, and the view that fills it.
 
-    A cloud in one point is in the middle of the canvas, a unit of length being a quarter of its height.
+    A canvas of a narrow cloud is half as wide at least. A cloud in one point is in its middle, a unit of length being a
+    quarter of its height.
 
     >>> from assur.scene.camera import plane
     >>> view, page = fitted(plane("x", "y"), np.array([[0.0, 0, 0], [2, 1, 0]]), width=40, tallest=90, margin=10)
@@ -131,7 +132,7 @@ def fitted(camera: Camera, cloud: FloatArray, width: float, tallest: float, marg
     span = high - low if np.any(high > low) else np.full(2, 4.0)
     span = np.maximum(span, 1e-300)
     scale = min((width - 2 * margin) / span[0], (tallest - 2 * margin) / span[1])
-    sides = np.array([width, tallest]) if scale * span[0] < 0.5 * (width - 2 * margin) else scale * span + 2 * margin
+    sides = np.maximum(scale * span + 2 * margin, [width / 2, 0.0])
     view = View(camera, scale * POINTS, POINTS * (sides / 2 - scale * (low + high) / 2))
     return view, canvas(float(sides[0]), float(sides[1]))
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
-from assur.figures.labels import is_settable, label
-from assur.figures.letters import mathematics
+from assur.figures.labels import label
+from assur.figures.measures import Measures
 from assur.figures.placing import Letters
 from assur.figures.style import BLUE, INK, RED, TEXT
 from assur.figures.symbols import direction
@@ -112,6 +111,29 @@ def draw_arcs(page: Canvas, view: View, arcs: list[Arc], letters: Letters) -> No
         letters.add(flat[SAMPLES // 2], f"${arc.latex}$", clear=1.5, color=RED)
 
 
+def draw_placements(page: Canvas, view: View, skeleton: Skeleton, measures: Measures, letters: Letters) -> None:
+    """Steps between arrows and angles, with their letters; a step that is a whole rod is not drawn again."""
+    for part in measures.steps:
+        flat = view(part.points)
+        if not any(_same(part.points, rod.points) for rod in skeleton.rods):
+            page.arrow(flat[0], flat[1], INK, 0.5, 8.5, style="<|-|>", head=4)
+            letters.avoid(flat)
+        if part in measures.lettered:
+            letters.add_along(flat, f"${part.latex}$", clear=1.5, fontsize=TEXT)
+    for part in measures.arcs:
+        flat = view(part.points)
+        page.line(flat[:-1], 0.5, INK, 8.5)
+        page.arrow(flat[-2], flat[-1], INK, 0.5, 8.5, head=4)
+        letters.avoid(flat[::4])
+        letters.add(flat[len(flat) // 2], f"${part.latex}$", clear=1.5, fontsize=TEXT)
+
+
+def _same(ends: FloatArray, others: FloatArray) -> bool:
+    """Whether a step (2, 3) goes from one end of a rod (2, 3) to the other."""
+    size = 1e-9 * float(np.linalg.norm(others[1] - others[0]))
+    return bool(np.allclose(ends, others, 0.0, size) or np.allclose(ends[::-1], others, 0.0, size))
+
+
 def draw_frame(
     page: Canvas, view: View, frame: Frame, at: FloatArray, size: float, primes: str, letters: Letters
 ) -> None:
@@ -154,21 +176,3 @@ def draw_measures(page: Canvas, view: View, skeleton: Skeleton, letters: Letters
             letters.avoid(np.array([end + 5 * across, foot]))
         letters.avoid(low)
         letters.add_along(low, f"${latex[mark.joint.name]}$", clear=1.5, fontsize=TEXT)
-
-
-def formula_text(formula: str) -> str:
-    r"""A product of parameters as mathematics.
-
-    >>> formula_text("2*d"), formula_text("l4"), formula_text("sqrt(3)*r"), formula_text("uP")
-    ('$2d$', '$l_{4}$', '$\\sqrt{3}\\,r$', '$u_P$')
-    """
-    named = re.sub(r"[A-Za-z]\w*", lambda name: mathematics(name[0]) or _indexed(name[0]), formula)
-    rooted = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", named)
-    whole = rooted.replace("}*", "}" + chr(92) + ",").replace("*", "")
-    return f"${whole}$" if is_settable(whole) else formula
-
-
-def _indexed(name: str) -> str:
-    """A name of two letters as one with an index."""
-    indexed = f"{name[0]}_{name[1]}" if len(name) == 2 else name
-    return label(indexed, name)

@@ -11,6 +11,7 @@ GREEK = frozenset(
 PRIME = "\N{PRIME}"
 _LETTER = re.compile(r"([A-Z]|[a-z])(\d*)([a-z]?)('*)")
 _WORD = re.compile(r"([A-Za-z]+?)(\d+)([a-z]?)")
+_ENDS_IN_LETTER = re.compile(r"([a-z]{2,})([A-Z])")
 _OF_LIMB = re.compile(r"[A-Za-z_]+(\d+)\.(\w+)")
 
 
@@ -51,13 +52,33 @@ def mathematics(name: str) -> str:
 
 
 def words(name: str) -> str:
-    """A name of words with its number apart; of a limb's part the limb's number.
+    """A name of words with its number or letter apart; of a limb's part the limb's number first, as in its letters.
 
-    >>> words("link4a"), words("leg2.crank")
-    ('link 4a', 'crank 2')
+    >>> words("link4a"), words("leg2.crank"), words("leg2.rod1"), words("a2.linkB")
+    ('link 4a', 'crank 2', 'rod 2,1', 'link B2')
     """
     of_limb = _OF_LIMB.fullmatch(name)
     if of_limb:
-        return f"{words(of_limb[2])}{',' if of_limb[2][-1].isdigit() else ' '}{of_limb[1]}"
+        limb, part = of_limb.groups()
+        own = _WORD.fullmatch(part)
+        if own:
+            return f"{own[1]} {limb},{own[2]}{own[3]}"
+        return f"{words(part)}{'' if _ENDS_IN_LETTER.fullmatch(part) else ' '}{limb}"
+    ends = _ENDS_IN_LETTER.fullmatch(name)
+    if ends:
+        return f"{ends[1]} {ends[2]}"
     found = _WORD.fullmatch(name)
     return f"{found[1]} {found[2]}{found[3]}" if found else name.replace("_", " ")
+
+
+def numeral(number: int) -> str:
+    """A number from 1 in Roman numerals.
+
+    >>> [numeral(number) for number in (1, 4, 6, 9, 14)]
+    ['I', 'IV', 'VI', 'IX', 'XIV']
+    """
+    digits = ""
+    for value, sign in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
+        digits += sign * (number // value)
+        number %= value
+    return digits

@@ -8,18 +8,37 @@ import numpy as np
 
 from assur.figures.canvas import View, fitted
 from assur.figures.context import Context
-from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures, formula_text
+from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures, draw_placements
+from assur.figures.labels import formula_text
 from assur.figures.letters import PRIME, letter
+from assur.figures.measures import Measures, measures
 from assur.figures.mode_letters import add_signs, shown_signs, signs_said
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import GREY, TEXT
-from assur.scene.camera import oblique
+from assur.scene.camera import Camera, oblique
 from assur.scene.hull import hull
 from assur.scene.letters import lettered
 from assur.scene.rails import rails
 from assur.scene.skeleton import Skeleton
+
+
+def _camera(context: Context) -> Camera:
+    return context.camera("model", oblique("y", "z", 216, 0.6))
+
+
+def _measures(context: Context) -> Measures:
+    return context.kept("measures", lambda: measures(context.schematic, _camera(context)))
+
+
+def _undrawn(context: Context) -> str:
+    """What the caption says of parameters that the figure does not show; those of one reason in one clause."""
+    reasons: dict[str, list[str]] = {}
+    for name, reason in _measures(context).undrawn.items():
+        reasons.setdefault(reason, []).append(formula_text(name))
+    clauses = [f"{', '.join(names)} ({reason})" for reason, names in reasons.items()]
+    return f" Not drawn: {'; '.join(clauses)}." if clauses else ""
 
 
 def _caption(context: Context) -> str:
@@ -30,21 +49,21 @@ def _caption(context: Context) -> str:
     signs = signs_said(shown_signs(record))
     return (
         "Kinematic model: points, base frame O-XYZ, moving frame O'-X'Y'Z', inputs and lengths."
-        f"{angles}{f' Letters in frames are signs of modes: {signs}.' if signs else ''}{context.schematic_note}"
+        f"{angles}{_undrawn(context)}{f' Letters in frames are signs of modes: {signs}.' if signs else ''}"
+        f"{context.schematic_note}"
     )
 
 
 def _draw(context: Context) -> Drawing:
     skeleton, companion = context.schematic, context.companion
-    camera = context.camera("model", oblique("y", "z", 216, 0.6))
+    camera, shown = _camera(context), _measures(context)
     size = 0.13 * skeleton.size
     platform = skeleton.record.platform
     moving = skeleton.frames[platform.link]
     origin = moving[0] @ platform.point + moving[1]
     frames = np.concatenate([np.zeros((1, 3)), origin + size * moving[0].T])
-    view, page = fitted(
-        camera, np.concatenate([cloud_of(skeleton, companion), frames]), min(150, context.page), 105, margin=11
-    )
+    cloud = [cloud_of(skeleton, companion), frames, *(step.points for step in shown.steps)]
+    view, page = fitted(camera, np.concatenate(cloud), min(150, context.page), 105, margin=11)
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     ends = [point for rail in rails(skeleton, companion) for point in rail.ends]
@@ -58,6 +77,7 @@ def _draw(context: Context) -> Drawing:
     letters.add(view(base[1]), "$O$")
     draw_frame(page, view, moving, origin, size, PRIME, letters)
     draw_measures(page, view, skeleton, letters)
+    draw_placements(page, view, skeleton, shown, letters)
     for name, at in lettered(skeleton).items():
         page.disc(view(at), 1.2, "black", "black", 0.3, 9.5)
         moves = np.linalg.norm(origin - at) <= 1e-9

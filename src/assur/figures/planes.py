@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
-from assur.figures.dimensions import Arc, arcs, draw_arcs, draw_frame, formula_text
-from assur.figures.labels import label
+from assur.figures.dimensions import Arc, arcs, draw_arcs, draw_frame
+from assur.figures.labels import formula_text, label
 from assur.figures.letters import letter
 from assur.figures.page import side_by_side
 from assur.figures.placing import Letters

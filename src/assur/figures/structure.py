@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
-from assur.figures.letters import letter, mathematics, words
+from assur.figures.letters import letter, mathematics, numeral, words
 from assur.figures.placing import Letters
 from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind, always
@@ -18,6 +19,10 @@ from assur.figures.symbols import direction
 from assur.scene.camera import oblique
 from assur.scene.rails import rails
 from assur.scene.skeleton import Rod, Skeleton
+
+FloatArray = NDArray[np.float64]
+BEND = 0.55
+"""How far the arrow of a driven turn bulges, as a share of the distance of its ends."""
 
 
 def _caption(context: Context) -> str:
@@ -29,10 +34,14 @@ def _caption(context: Context) -> str:
 
 
 def _limbs(context: Context) -> str:
-    """How the parts of repeated limbs are numbered, e.g. " $A_{1}$ is A of leg1."."""
+    """How limbs and their parts are numbered, e.g. " Limb I is leg1; $A_{1}$ is its A, and so on."."""
+    order = context.schematic.chains
     first = next((name for name in context.record.joints if "." in name and mathematics(name)), "")
     limb, _, own = first.partition(".")
-    return f" ${mathematics(first)}$ is {own} of {limb}, and so on." if first else ""
+    if not first or context.companion.chains or limb not in order:
+        return ""
+    number = numeral(order.index(limb) + 1)
+    return f" Limb {number} is {limb} of the file; ${mathematics(first)}$ is its {own}, and so on."
 
 
 def _draw(context: Context) -> Drawing:
@@ -46,7 +55,7 @@ def _draw(context: Context) -> Drawing:
     _name_joints(view, skeleton, letters)
     _name_links(context, view, skeleton, letters)
     _number_loops(context, page, view, skeleton, letters)
-    _legend(context, page)
+    _legend(context, page, letters)
     letters.place()
     return Drawing(page.figure, _data(context, skeleton))
 
@@ -94,8 +103,16 @@ def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> N
             letters.avoid(np.array([low - 12 * along, low + 12 * along]))
         else:
             start, end = at + 9.5 * np.array([0.94, -0.34]), at + 9.5 * np.array([-0.5, 0.87])
-            page.arrow(start, end, head=5, width=0.7, order=9, connectionstyle="arc3,rad=0.55")
-            letters.avoid_disc(at + 5.0, 7.0)
+            page.arrow(start, end, head=5, width=0.7, order=9, connectionstyle=f"arc3,rad={BEND}")
+            letters.avoid(_bent(start, end))
+
+
+def _bent(start: FloatArray, end: FloatArray) -> FloatArray:
+    """The curve (k, 2) of an arrow about a joint, a parabola."""
+    way = end - start
+    control = (start + end) / 2 + BEND * np.array([way[1], -way[0]])
+    share = np.linspace(0.0, 1.0, 8)[:, None]
+    return np.asarray((1 - share) ** 2 * start + 2 * share * (1 - share) * control + share**2 * end)
 
 
 def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
@@ -107,12 +124,18 @@ def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton
         letters.avoid_disc(centre, 6.0)
 
 
-def _legend(context: Context, page: Canvas) -> None:
+def _legend(context: Context, page: Canvas, letters: Letters) -> None:
     order = list(context.schematic.chains)
-    names = context.companion.chains or {name: words(name) for name in order}
+    names = context.companion.chains or {name: f"limb {numeral(order.index(name) + 1)}" for name in order}
     lines = [Line2D([], [], color=CHAINS[order.index(name) % len(CHAINS)], linewidth=2) for name in names]
     if lines:
-        page.axes.legend(lines, list(names.values()), loc="upper right", fontsize=SMALL)
+        width, height = page.axes.get_xlim()[1], page.axes.get_ylim()[1]
+        longest = max(len(text) for text in names.values())
+        columns = min(len(lines), max(1, int(width / (SMALL * (5.0 + 0.5 * longest)))))
+        rows = -(-len(lines) // columns)
+        columns = -(-len(lines) // rows)
+        page.axes.legend(lines, list(names.values()), loc="upper center", ncols=columns, fontsize=SMALL)
+        letters.avoid_box(np.array([[0.0, height - 1.5 * SMALL * rows], [width, height]]))
 
 
 def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:

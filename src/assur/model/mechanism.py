@@ -159,11 +159,12 @@ class LimbRecord:
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """A letter: a point fixed in a link, for drawings, audit and errata."""
+    """A letter: a point fixed in a link, with its formulas, for drawings, audit and errata."""
 
     name: str
     link: str
     at: FloatArray
+    written: WrittenVector | None = None
 
 
 @dataclass(frozen=True)

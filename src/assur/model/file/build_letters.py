@@ -71,5 +71,6 @@ def build_points(tables: Tables, scope: Scope, geometry: JointVectors) -> dict[s
     for name, placed in tables.points.items():
         link = scope.link(placed.entry.link, (*placed.path, "link"), placed.instance)
         at = geometry.vector(placed.entry.at, (*placed.path, "at"), placed.instance)
-        found[name] = Point(name, link or "", at)
+        written = geometry.written(placed.entry.at, placed.instance)
+        found[name] = Point(name, link or "", at, written)
     return found
