@@ -32,7 +32,7 @@ _SAMPLES = 24
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class PlacedStep:
     """A part of the way from a link's origin to one of its points, along an axis of its frame or along a radius.
 
     Attributes:
@@ -61,11 +61,11 @@ class Placement:
 
     link: str
     point: str
-    steps: tuple[Step, ...]
-    arc: Step | None = None
+    steps: tuple[PlacedStep, ...]
+    arc: PlacedStep | None = None
 
     @property
-    def parts(self) -> tuple[Step, ...]:
+    def parts(self) -> tuple[PlacedStep, ...]:
         """Its steps and its angle."""
         return (*self.steps, self.arc) if self.arc else self.steps
 
@@ -79,16 +79,16 @@ class Measures(NamedTuple):
     """What is drawn: placements, and of these the parts that bear their letters; of each other parameter why not."""
 
     placements: tuple[Placement, ...]
-    lettered: tuple[Step, ...]
+    lettered: tuple[PlacedStep, ...]
     undrawn: dict[str, str]
 
     @property
-    def steps(self) -> list[Step]:
+    def steps(self) -> list[PlacedStep]:
         """Every step that is drawn: the whole way to each point."""
         return [step for placement in self.placements for step in placement.steps]
 
     @property
-    def arcs(self) -> list[Step]:
+    def arcs(self) -> list[PlacedStep]:
         """Every angle that is drawn: those with a letter."""
         return [item.arc for item in self.placements if item.arc in self.lettered and item.arc]
 
@@ -140,7 +140,7 @@ def _placement(skeleton: Skeleton, link: str, point: str, written: WrittenVector
         ways.append((radius, _names(radius), value * way))
         if _names(angle) and value:
             turns = rotations.about_axis(axes[:, 2], np.linspace(0.0, turned, _SAMPLES))
-            arc = Step(node_latex(_unsigned(angle)), _names(angle), origin + SHARE * value * (turns @ axes[:, 0]))
+            arc = PlacedStep(node_latex(_unsigned(angle)), _names(angle), origin + SHARE * value * (turns @ axes[:, 0]))
     along = [
         (part.root, part.names, float(reading.value(part)) * axes[:, k])
         for k, part in enumerate(written.parts)
@@ -149,7 +149,7 @@ def _placement(skeleton: Skeleton, link: str, point: str, written: WrittenVector
     ways += sorted(along, key=lambda way: -float(np.linalg.norm(way[2])))
     steps, at = [], origin
     for node, names, way in ways:
-        steps.append(Step(node_latex(_unsigned(node)), names, np.array([at, at + way])))
+        steps.append(PlacedStep(node_latex(_unsigned(node)), names, np.array([at, at + way])))
         at = at + way
     return Placement(link, point, tuple(steps), arc)
 
@@ -199,7 +199,7 @@ def measures(skeleton: Skeleton, camera: Camera) -> Measures:
     open_names = [name for name in record.parameters if name not in seen and name not in undrawn]
     undrawn |= _coordinates(every, {*open_names})
     drawn: list[Placement] = []
-    lettered: dict[str, Step] = {}
+    lettered: dict[str, PlacedStep] = {}
     for name in open_names:
         if name in seen or name in undrawn:
             continue
@@ -235,12 +235,12 @@ def _coordinates(every: list[Placement], names: set[str]) -> dict[str, str]:
     return {name: f"coordinates of {letter(item.point)}" for item in own for name in item.names if len(own) > MOST}
 
 
-def _length(camera: Camera, part: Step) -> float:
+def _length(camera: Camera, part: PlacedStep) -> float:
     flat = camera.project(part.points)
     return float(np.sum(np.linalg.norm(np.diff(flat, axis=0), axis=1)))
 
 
-def _hidden(skeleton: Skeleton, camera: Camera, part: Step) -> bool:
+def _hidden(skeleton: Skeleton, camera: Camera, part: PlacedStep) -> bool:
     return _length(camera, part) < VISIBLE * skeleton.size
 
 
