@@ -15,7 +15,7 @@ from assur.topology.latex import fragment
 from catalogue import each
 
 TRIPTERON = ["P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"]
-PARTS = ("derivation", "limbs", "decoupling", "actuators", "joints")
+PARTS = ("derivation", "limbs", "actuators")
 
 
 def chains(*texts):
@@ -38,6 +38,17 @@ def test_the_result_stands_in_the_first_lines(assur_cli):
     assert head[6].rstrip().endswith("κ = 1; full freedom: one Assur chain has all drives")
     assert head[8].split()[:2] == ["redundant", "4"]
     assert " 10 of all joints" in head[8]
+
+
+@pytest.mark.parametrize(
+    "limbs", [TRIPTERON, ["U[x@O,y] P[z] R[y]"] * 2 + ["R[x] P[z] U[x,y]"]], ids=["3T", "2UPR-RPU"]
+)
+def test_what_the_characteristics_say_is_not_said_again(assur_cli, limbs):
+    head, _, parts = assur_cli("topology", *chains(*limbs)).out.partition("\n\n")
+    for name in ("idle", "relaxed", "Assur chains", "decoupling"):
+        assert re.search(rf"^{name} +\S", head, re.MULTILINE), name
+    for again in ("idle", "leaves", "Assur chain 1: loop", "coupled", "valid", "admissible"):
+        assert again not in parts
 
 
 def test_a_planar_five_bar_has_two_readings(assur_cli):

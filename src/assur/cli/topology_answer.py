@@ -1,4 +1,4 @@
-"""What `assur topology` says: the result in a few lines, the derivation, then table by table."""
+"""What `assur topology` says: the characteristics, the derivation, then part by part what these do not say yet."""
 
 from __future__ import annotations
 
@@ -225,10 +225,6 @@ def _loops(topology: Topology, say: Said) -> Iterator[RenderableType]:
     inside = topology.redundant_by_loop[len(topology.loops) :]
     if inside:
         yield "redundant inside parallelograms: " + ", ".join(f"{name} {count}" for name, count in inside)
-    for number, chain in enumerate(topology.assur_chains, 1):
-        loops = ", ".join(str(index + 1) for index in chain.loops)
-        noun = "loop" if len(chain.loops) == 1 else "loops"
-        yield say(f"Assur chain {number}: {noun} {loops}, κ = {chain.coupling_degree}")
 
 
 def _plan(topology: Topology, say: Said) -> Iterator[RenderableType]:
@@ -245,6 +241,8 @@ def _decoupling(topology: Topology, say: Said) -> Iterator[RenderableType]:
     if matrix is None:
         yield say(f"The inputs do not determine the platform: {topology.actuation}.")
         return
+    if all(map(all, matrix.depends)):  # coupled throughout, as the characteristics say
+        return
     yield table(
         ("output", *matrix.inputs),
         [
@@ -253,15 +251,15 @@ def _decoupling(topology: Topology, say: Said) -> Iterator[RenderableType]:
         ],
         left=("output",),
     )
-    kind = {"full": "fully decoupled", "partial": "partially decoupled", "none": "coupled throughout"}[matrix.kind]
-    yield say(f"× depends on the input, · does not: {kind}.")
+    yield say("× depends on the input, · does not.")
 
 
 def _actuation(topology: Topology, say: Said) -> Iterator[RenderableType]:
     if not topology.loops and topology.decoupling is None:
         return
     asked = topology.actuation
-    yield say(f"chosen: {', '.join(asked.inputs) or 'none'}; {asked}.")
+    if asked.verdict != "valid":
+        yield say(f"{asked}.")
     for part in topology.determining:
         follows = f"; {', '.join(part.following)} {'follows' if len(part.following) == 1 else 'follow'}"
         yield say(f"determined by {part}{follows}")
@@ -273,8 +271,6 @@ def _actuation(topology: Topology, say: Said) -> Iterator[RenderableType]:
 
 
 def _joints(topology: Topology, say: Said) -> Iterator[RenderableType]:
-    yield say(f"idle joints: {', '.join(topology.idle_joints) or 'none'}")
-    yield say(f"internal freedoms of F: {topology.internal_freedoms}")
     if topology.internal_joints:
         moved = "; ".join(" ".join(joints) for joints in topology.internal_joints)
         yield say(f"joints that move with platform and inputs at rest: {moved}")
@@ -298,8 +294,6 @@ def _relaxation(topology: Topology, say: Said) -> Iterator[RenderableType]:
         ],
         left=("a joint", "any one of"),
     )
-    steps = ", ".join(f"{item.joint} to {item.new}" for item in asked.together)
-    yield say(f"together: {steps}; that leaves {asked.left} of {asked.redundant}.")
 
 
 def _notes(topology: Topology, say: Said) -> Iterator[RenderableType]:
