@@ -21,12 +21,14 @@ from rich.table import Table
 import assur
 from assur.kinematics.following.following import follow
 from assur.kinematics.pose import pose_of
+from assur.machine.elasticity.stiffness_maps import stiffness_maps
 from assur.numerics.polynomials import roots
 from assur.topology.notation import parse_chain
 from assur.topology.symbolic.union import serial
 from assur.workspace.aspects.adjacency import shared_faces
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.region import certified_workspace
+from assur.workspace.region import workspace
 
 MECHANISM = "zeng2019"
 COMMANDS = (
@@ -60,6 +62,7 @@ def works() -> dict[str, Callable[[], object]]:
     record = assur.load(MECHANISM)
     start = record.home_values
     ahead = pose_of(record, start) + np.array([30.0, 40.0, -40.0])
+    poses, region = np.linspace(pose_of(record, start), ahead, 1000), workspace(record, resolution=16)
     coefficients = np.random.default_rng(1).normal(size=(10_000, 9))
     boxes = Boxes(np.zeros((3, 1)), np.ones((3, 1))).divided([48, 48, 48])
     chain = parse_chain(CHAIN)
@@ -68,6 +71,8 @@ def works() -> dict[str, Callable[[], object]]:
         "shared faces of 110,592 boxes": lambda: shared_faces(boxes),
         "motion of a chain of 8 joints by the rules": lambda: serial(chain),
         f"a path of {MECHANISM}, 50 steps": lambda: follow(record, start, poses=ahead, largest_step=0.02),
+        f"stiffness of {MECHANISM} at 1,000 poses": lambda: record.stiffness(poses),
+        f"stiffness of {MECHANISM} over 30 x 30 nodes": lambda: stiffness_maps(record, region, ["x", "z"], nodes=30),
         f"certified workspace of {MECHANISM}, gap 1e-5": lambda: certified_workspace(record, gap=1e-5, sections=()),
     }
 

@@ -76,6 +76,8 @@ def test_a_singular_pose_has_a_status_and_no_numbers(assur_cli):
     ("words", "said"),
     [
         (("--load", "1,2"), "--load: 2 values"),
+        (("--load", "5"), "--load: 1 value"),
+        (("--load", "x"), "--load: 'x' is not a number"),
         (("--load", "1,2,x"), "--load: 'x' is not a number"),
         (("--velocity", "1", "2"), "velocity of zeng2019: 2 values, 3 wanted"),
     ],

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.validation.check import METRES
 from assur.machine.accuracy.elastic_errors import elastic_errors
 from assur.machine.accuracy.geometry_errors import geometry_errors
 from assur.machine.accuracy.pose_errors import pose_errors_at
-from bending import bending
+from bending import bending, by_multipliers, yielding
 from copies_off import moved
 from own_machines import every_mechanism
 from weighed import place
@@ -51,6 +52,19 @@ def test_what_assembles_moves_it_the_same_whether_links_bend_or_not(mechanism, e
         if errors.compatible(name):
             np.testing.assert_allclose(row, errors.sensitivity[name], atol=1e-7 * (1 + np.abs(row).max()))
     assert all(errors.compatible(item.name) for item in mechanism.inputs)
+
+
+def test_what_does_not_assemble_settles_where_multipliers_say(mechanism):
+    """Beams, joints and gears that yield, every copy of every dimension off by itself."""
+    record, values = yielding(bending(mechanism)), place(mechanism)[0]
+    own = geometry_errors(mechanism, values)
+    off = own.twists.transpose(1, 2, 0)
+    settled = elastic_errors(record, values, off)
+    again = by_multipliers(record, values, off=off)[0]
+    length = characteristic_length(mechanism)
+    again[:3] /= METRES[mechanism.unit]
+    size = np.repeat([length, 1.0], 3)[:, None]
+    np.testing.assert_allclose(settled / size, again / size, atol=1e-7 * np.abs(again / size).max(), rtol=0.0)
 
 
 def _each(names, steps, driven, inputs):

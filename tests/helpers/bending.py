@@ -76,10 +76,11 @@ def bending(record, factor=1.0, seed=0):
     return replace(record, machine=MachineData(materials, profiles, links=links, actuators=actuators))
 
 
-def by_multipliers(record, values, shear=True):
+def by_multipliers(record, values, shear=True, off=None):
     """Compliance (6, 6), displacement before rotation, at joint values (n,), and what joints pass under unit wrenches.
 
     What a joint's parent passes to its child is (6, 6) force and moment about the platform's point, but for drives.
+    With joints that are `off` by twists (J, 6, k), as of `elastic_errors`, how far the platform moves (6, k), in SI.
     """
     own = structure(record)
     metre = METRES[record.unit]
@@ -103,7 +104,11 @@ def by_multipliers(record, values, shear=True):
     moves[3:] *= metre
     moves /= rate_units(record)
     point = metre * platform_frame(record, values[None])[1][0]
-    for name, (parent, child) in own.sides.items():
+    off = np.zeros((len(record.joints), 6, 0)) if off is None else off
+    shifts = metre * off[:, 3:] + np.cross(off[:, :3], point, axisa=1, axisb=0, axisc=1)
+    off = np.concatenate([shifts, off[:, :3]], axis=1)
+    gaps, forces = [np.zeros((6, off.shape[2]))], np.zeros((count, off.shape[2]))
+    for (name, (parent, child)), error in zip(own.sides.items(), off, strict=True):
         apart = _twist_at(at[child], child, count, point) - _twist_at(at[parent], parent, count, point)
         own_moves = moves[:, [item.index for item in record.joint_coordinates(name)]]
         own_moves = np.concatenate(
@@ -121,9 +126,11 @@ def by_multipliers(record, values, shear=True):
         softness.append(np.zeros((held.shape[1],) * 2) if compliance is None else held.T @ compliance @ held)
         owners[name] = held, slice(sum(map(len, rows)), sum(map(len, rows)) + held.shape[1])
         rows.append(held.T @ apart)
-        along = np.linalg.pinv(own_moves) @ apart if own_moves.size else ()
-        for row, index in zip(along, indices, strict=True):
-            whole += held_by.get(index, 0.0) * np.outer(row, row)
+        gaps.append(held.T @ error)
+        inverse = np.linalg.pinv(own_moves) if own_moves.size else ()
+        for row, index in zip(inverse, indices, strict=True):
+            whole += held_by.get(index, 0.0) * np.outer(row @ apart, row @ apart)
+            forces += held_by.get(index, 0.0) * np.outer(row @ apart, row @ error)
     constraints = np.concatenate(rows)
     saddle = np.block([[whole, constraints.T], [constraints, -block_diag(*softness)]])
     scale = np.ones(len(saddle))
@@ -131,6 +138,8 @@ def by_multipliers(record, values, shear=True):
         scale /= np.sqrt(np.abs(scale * saddle * scale[:, None]).max(axis=0))
     platform = _twist_at(at[own.platform], own.platform, count, point)
     loads = np.concatenate([platform.T, np.zeros((len(constraints), 6))])
+    if off.shape[2]:
+        loads = np.concatenate([forces, *gaps])
     solution = scale[:, None] * np.linalg.lstsq(scale * saddle * scale[:, None], scale[:, None] * loads, rcond=1e-13)[0]
     passed = {name: -held @ solution[count:][own_rows] for name, (held, own_rows) in owners.items()}
     return platform @ solution[:count], passed

@@ -73,9 +73,11 @@ def wrench(text: str | None) -> list[float]:
     [0.0, 0.0, -100.0]
     """
     texts = text.split(",") if text is not None else ["0"] * 3
-    if len(texts) not in (3, 6):
-        raise UsageError(f"--load: {len(texts)} values", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
-    return [number(part, "--load") for part in texts]
+    given = [number(part, "--load") for part in texts]
+    if len(given) not in (3, 6):
+        count = f"{len(given)} value" if len(given) == 1 else f"{len(given)} values"
+        raise UsageError(f"--load: {count}", hint="give FX,FY,FZ or FX,FY,FZ,MX,MY,MZ, in N and N m")
+    return given
 
 
 def parts(texts: Iterable[str], option: str) -> list[str]:
