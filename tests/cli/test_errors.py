@@ -58,6 +58,31 @@ def test_tolerances_and_clearances_are_summed(assur_cli, toleranced):
         assert word in out
 
 
+def test_samples_lie_inside_the_bounds_and_say_how_much_of_them_is_reached(assur_cli, toleranced):
+    words = ("errors", toleranced, "--pose", "0", "224")
+    data = assur_cli(*words, "--json", "--samples", "3000").json["sampled"]
+    assert (data["count"], data["seed"], data["assembled"], data["inside"]) == (3000, 1, 3012, True)
+    assert data["ratio"]["y"] == pytest.approx(1.0, abs=1e-2)
+    out = " ".join(assur_cli(*words, "--samples", "3000").out.split())
+    assert "width over that of samples" in out
+    assert "3000 samples, uniform (seed 1), and the ends that are worst to first order: all inside" in out
+    for count in ("0", "many", "1e9"):
+        assert assur_cli(*words, "--samples", count).code == 2
+
+
+def test_maps_are_of_what_tolerances_add_to(assur_cli, toleranced, tmp_path):
+    words = ("--map", "x,y", "--nodes", "4", "--resolution", "6")
+    run = assur_cli("errors", toleranced, *words, "-o", str(tmp_path / "map.csv"))
+    assert run.code == 0
+    assert "worst_displacement [mm]" in run.out
+    lines = (tmp_path / "map.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "x [mm],y [mm],status,worst_displacement [mm],root_sum_square [mm],worst_rotation [rad]"
+    bare = assur_cli("errors", "fivebar", *words)
+    assert bare.code == 2
+    assert "fivebar states no tolerances" in bare.err
+    assert "write [tolerances]" in " ".join(bare.err.split())
+
+
 def test_bad_input_is_refused(assur_cli):
     assert assur_cli("errors", "fivebar").code == 2
     far = assur_cli("errors", "fivebar", "--pose", "0", "900", "--json")

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from assur import load
 from assur.cli.application import application
 
 MOTION = "[harmonic]\ncentre = [0, 200]\namplitude = [20, 10]\nomega = [3, 3]\nphase = [0, 0]\nt_end = 0.2\ncount = 5\n"
@@ -16,6 +17,7 @@ OTHER = {
     "--poses": ("poses.csv",), "--count": ("6",), "--by": ("O2",), "--measure": ("x",), "--centre": ("0,10,0",),
     "--section": ("200",), "--near": ("5",), "--gap": ("0.05",), "--finest": ("20",), "--boxes": ("3",),
     "--prove": ("x=-5:5",), "--largest": ("cube",), "--around": ("x=0",), "--ratio": ("2",), "--set": ("l2=190",),
+    "--samples": ("500",),
 }  # fmt: skip
 """A value of each option that is another than what holds without it."""
 SHARED = {"--json", "--debug", "--run-code"}
@@ -23,6 +25,7 @@ UNSEEN = {
     ("dynamics", "--no-limits"): "the file states no limits",
     ("forces", "--resolution"): "of the region; what is mapped is solved node by node",
     ("stiffness", "--resolution"): "the same",
+    ("errors", "--resolution"): "the same",
     ("indices", "--resolution"): "the same",
     ("--certify", "--boxes"): "the first round of boxes is enough",
     ("--prove", "--boxes"): "the same",
@@ -41,6 +44,8 @@ UNSEEN = {
         "stiffness fivebar --pose 0 200",
         "stiffness fivebar --map x --at y=200 --nodes 3 --resolution 4",
         "errors fivebar --pose 0 200",
+        "errors toleranced.toml --pose 0 200",
+        "errors toleranced.toml --map x --at y=200 --nodes 3 --resolution 4",
         "indices fivebar --pose 0 200",
         pytest.param("indices fivebar --map x --at y=200 --nodes 3 --resolution 4", marks=pytest.mark.deep),
         "indices fivebar --points 128 --resolution 4",
@@ -61,6 +66,7 @@ def test_no_option_is_passed_over(assur_cli, tmp_path, monkeypatch, question):
         ("motion.toml", MOTION),
         ("other.toml", MOTION.replace("20, 10", "10, 20")),
         ("poses.csv", POSES),
+        ("toleranced.toml", f"{load('fivebar').file.read_text(encoding='utf-8')}\n[tolerances]\nl1 = 0.05\n"),
     ):
         (tmp_path / name).write_text(text)
     words = question.split()

@@ -62,7 +62,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
     "dynamics": (DynamicsAnswer, LinearMotionAnswer),
-    "errors": (ErrorsAnswer,),
+    "errors": (ErrorsAnswer, MapsAnswer),
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
     "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),

@@ -1,10 +1,11 @@
-"""What is mapped of forces and of stiffness."""
+"""What is mapped of forces, of stiffness and of errors."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from assur.cli.mapped import PlaneMap
+from assur.machine.accuracy.error_maps import error_maps, toleranced
 from assur.machine.elasticity.stiffness_maps import stiffness_maps
 from assur.machine.elasticity.structure import structure
 from assur.machine.forces.capacity import force_limits
@@ -21,6 +22,12 @@ def _forces_drawn(context: Context, maps: IndexMaps) -> Drawing:
     from assur.figures.index_maps import drawn
 
     return drawn(context, maps, tops(maps))
+
+
+def _errors_drawn(context: Context, maps: IndexMaps) -> Drawing:
+    from assur.figures.index_maps import drawn
+
+    return drawn(context, maps, by_decades=True)
 
 
 def _stiffness_drawn(context: Context, maps: IndexMaps) -> Drawing:
@@ -48,5 +55,16 @@ STIFFNESS = PlaneMap(
     _stiffness_drawn,
     lambda _, __: (
         "means and extremes are those of the nodes; the direction is that of the least stiffness, without sense",
+    ),
+)
+ERRORS = PlaneMap(
+    "error",
+    30,
+    toleranced,
+    lambda record, region, names, count, step: error_maps(record, region, names, nodes=count, progress=step),
+    _errors_drawn,
+    lambda _, maps: (
+        "of first order, inputs held, with the tolerances of the file; means and extremes are those of the nodes",
+        "; ".join(f"{name}: {item.meaning}" for name, item in maps.maps.items()),
     ),
 )

@@ -8,6 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from assur.errors import Interrupted, UnknownNameError
+from assur.figures.accuracy import ACCURACY, ERRORS
 from assur.figures.aspects import ASPECTS
 from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
@@ -67,6 +68,8 @@ ENTRIES: tuple[FigureKind, ...] = (
     ELLIPSOID,
     WEAKEST,
     VIBRATIONS,
+    ACCURACY,
+    ERRORS,
     GRAPH,
 )
 COMPARE = "Compare Figure {} of the source."

@@ -30,8 +30,12 @@ def whole(context: Context) -> IndexMaps:
     )
 
 
-def drawn(context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = None) -> Drawing:
+def drawn(
+    context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = None, *, by_decades: bool = False
+) -> Drawing:
     """Every index over two coordinates of the workspace of a context; `tops` are where colours of some end.
+
+    By decades are those of indices that grow without bound, or of all.
 
     Errors:
         UsageError: maps of one or of three coordinates.
@@ -45,7 +49,7 @@ def drawn(context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = 
     for pair, (name, item) in zip(pairs, maps.maps.items(), strict=True):
         top, index = (tops or {}).get(name), INDICES.get(name)
         known = item.values[np.isfinite(item.values)]
-        unbounded = index is not None and index.unbounded
+        unbounded = by_decades or (index is not None and index.unbounded)
         colours = Normalize(0.0, top or 1.0) if top is not None else scale_of(known, unbounded=unbounded)
         values = np.where(np.isinf(item.values), float(colours.vmax or np.nan) if len(known) else np.nan, item.values)
         image = coloured(pair[0], plane, values.T, colours)

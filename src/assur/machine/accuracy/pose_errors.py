@@ -23,10 +23,12 @@ from assur.machine.accuracy.elastic_errors import elastic_errors
 from assur.machine.accuracy.error_closure import FITS, ErrorClosure, error_closure
 from assur.machine.accuracy.geometry_errors import geometry_errors
 from assur.machine.accuracy.proved_poses import ProvedPoses, proved_poses
+from assur.machine.accuracy.sampled_poses import COUNT, SEED, SampledPoses, sampled_poses
 from assur.machine.elasticity.structure import yields
 from assur.machine.forces.reactions import child_points
 from assur.model.mechanism import MechanismRecord
 from assur.results.notebook import Entries, Tabulated
+from assur.work import Progress
 
 FloatArray = NDArray[np.float64]
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
@@ -97,8 +99,23 @@ class PoseErrors(Tabulated):
     @cached_property
     def proved(self) -> ProvedPoses:
         """Bounds of the pose with every tolerance of the file, proved: see `assur.machine.accuracy.proved_poses`."""
-        off = {name: item.bound for name, item in self.record.machine.tolerances.items() if item.bound > 0.0}
-        return proved_poses(self.record, self.values, off) if off else ProvedPoses({}, "no tolerances are stated")
+        own = self.off
+        return proved_poses(self.record, self.values, own) if own else ProvedPoses({}, "no tolerances are stated")
+
+    @property
+    def off(self) -> dict[str, float]:
+        """Tolerances of the file that are not zero, in lengths and rad."""
+        return {name: item.bound for name, item in self.record.machine.tolerances.items() if item.bound > 0.0}
+
+    def sampled(self, count: int = COUNT, seed: int = SEED, progress: Progress | None = None) -> SampledPoses:
+        """Poses of mechanisms drawn at random within the file's tolerances: `assur.machine.accuracy.sampled_poses`.
+
+        Errors:
+            UsageError: there are no tolerances.
+        """
+        if not self.off:
+            raise UsageError(f"{self.record.name} states no tolerances", hint="there is nothing to draw from")
+        return sampled_poses(self.record, self.values, self.off, self.sensitivity, count, seed, progress)
 
     def _title(self) -> str:
         return f"errors of the platform of {self.record.name} per unit ({self.status.name})"

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from assur.errors import UsageError
-from assur.kinematics.status import Status
-from assur.machine.accuracy.pose_errors import COORDINATES, PoseErrors, pose_errors_at
+from assur.figures.accuracy import drawn_errors
+from assur.machine.accuracy.pose_errors import COORDINATES, PoseErrors
 from assur.model.pose import LENGTHS
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, PROVED, Result, Scalar, Section, Table
 from assur.results.typeset_text import short
 
+PICTURES = ("accuracy", "errors")
 ROUNDED = 1e-9
 SAID = (
     "How far an error of one in a dimension or an input moves the platform in the configuration that is drawn, while"
@@ -27,9 +27,7 @@ def accuracy(findings: Findings) -> Section:
     Errors:
         UsageError: a pose that the inputs do not hold.
     """
-    solved = pose_errors_at(findings.record, findings.drawn_joints)
-    if solved.status != Status.regular:
-        raise UsageError(f"the inputs do not hold the platform where it is drawn: it is {solved.status.name} there")
+    solved = drawn_errors(findings)
     inputs = {item.name for item in findings.record.drives}
     whole = [name for name in solved.sensitivity if "." not in name or name in inputs]
     copies = [name for name in solved.sensitivity if name not in whole]
@@ -38,6 +36,7 @@ def accuracy(findings: Findings) -> Section:
         results.append(_sensitivities(solved, "Dimensions of one limb or of one link", copies))
     if findings.record.machine.tolerances:
         results += [_summed(solved), *_proved(solved)]
+    results += findings.picture(*PICTURES)
     return Section("Accuracy", SAID, results)
 
 
