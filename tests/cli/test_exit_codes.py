@@ -46,7 +46,20 @@ QUESTIONS = [
     # bounds are an answer and no question
     ("certify zeng2019 -o FILE --most 1", 0),
 ]
-NO_QUESTION = {"verify", "follow", "audit", "sweep", "demo", "crosscheck", "report", "page", "doctor", "show", "check"}
+NO_QUESTION = {
+    "verify",
+    "follow",
+    "audit",
+    "sweep",
+    "demo",
+    "crosscheck",
+    "report",
+    "page",
+    "doctor",
+    "show",
+    "check",
+    "errors",
+}
 """They mention proofs, and ask for none: of `verify` see test_verify.py."""
 
 
