@@ -126,15 +126,14 @@ def _draw_bars(
 ) -> None:
     """Lying bars in a place (left, bottom, width, height) in mm of a page (width, height), in colours by name."""
     axes = figure.add_axes((place[0] / page[0], place[1] / page[1], place[2] / page[0], place[3] / page[1]))
-    names, lengths = zip(*bars.longest, strict=True)
+    names, lengths = [name for name, _ in bars.longest], [length for _, length in bars.longest]
     axes.barh(range(len(names)), lengths, color=[colours.get(name, BLUE) for name in names], height=0.65)
     axes.set_yticks(range(len(names)), names, fontsize=SMALL)
     axes.invert_yaxis()
     axes.set_xlabel(words, fontsize=TEXT, labelpad=1.5)
-    axes.set_xlim(0.0, max(lengths) or 1.0)
+    axes.set_xlim(0.0, max(lengths, default=0.0) or 1.0)
     for row, length in enumerate(lengths):
-        axes.text(
-            length, row, f" {length if length > ROUNDED * max(lengths) else 0.0:.3g}", va="center", fontsize=SMALL
-        )
+        text = f"{length:.1f}" if bars.shares else f"{length:.3g}"
+        axes.text(length, row, f" {text}", va="center", fontsize=SMALL)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(left=False, labelsize=SMALL)
