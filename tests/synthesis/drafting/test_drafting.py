@@ -15,7 +15,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.status import Status
-from assur.kinematics.validation.check import faults
+from assur.kinematics.validation.check import doubts, faults
 from assur.model.dimensions import with_parameters
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
@@ -36,6 +36,13 @@ HYBRID = ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[y] P(4R)[x]
 
 def read(found: Drafted) -> MechanismRecord:
     return read_text(found.text, PATH)
+
+
+def test_a_home_that_rounded_dimensions_move_is_written_as_the_loops_close():
+    """With rounded lengths a short offset in the loop turns its crank by four degrees."""
+    record = read(drafted(parse_chains(["P[x] P(2US)[y]", "{P[x] R[z] | P[x] R[z] R[z]} C[z]"]), PATH))
+    assert doubts(record) == ()
+    assert np.any(record.home)
 
 
 def of(*chains: str, **options: object) -> Drafted:

@@ -132,6 +132,16 @@ def _turns(record: MechanismRecord) -> list[Problem]:
     return _one_each(found)
 
 
+def closes_far_off(record: MechanismRecord) -> bool:
+    """Whether the loops close by more than a degree, or a hundredth of the longest link, from the file's home.
+
+    >>> from assur.model.registry import load_record
+    >>> closes_far_off(load_record("zeng2019"))
+    False
+    """
+    return bool(_away(record))
+
+
 def _away(record: MechanismRecord) -> list[Problem]:
     """Home values of the file that are not those of the assembly to which the loops close from them."""
     if record.overrides:  # whose home is not the file's

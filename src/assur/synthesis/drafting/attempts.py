@@ -15,7 +15,7 @@ from assur.kinematics.modes import written_quantities
 from assur.kinematics.parasitic import moving
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.structure import linkage
-from assur.kinematics.validation.check import faults
+from assur.kinematics.validation.check import closes_far_off, faults
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
@@ -113,7 +113,7 @@ class DraftQuestion:
                 constant=still,
                 box=_box(pose, drawn),
                 header=self._header(moved=moved),
-                home=home_table(record, values) if moved else {},
+                home=home_table(record, values) if moved or closes_far_off(record) else {},
                 motion=motion_name(self.topology.poc.dim, self.topology.poc.r),
             )
             chosen = self._with_modes(drawn, chosen)

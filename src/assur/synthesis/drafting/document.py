@@ -42,7 +42,7 @@ class Chosen:
         header: lines of comment at the top.
         box: coordinate -> low and high, as the file writes them.
         working: name -> formula, positive at home.
-        home: joint -> values in the file's units where home is not as drawn.
+        home: joint -> values in the file's units where the loops do not close as drawn, or that is singular.
         motion: of the platform, in a word: 2T1R.
     """
 
@@ -72,7 +72,9 @@ def document(draft: Draft, chosen: Chosen) -> str:
         sections.append(_inputs(chosen.inputs))
     if chosen.home:
         rows = [f'"{name}" = {_values(values)}' for name, values in chosen.home.items()]
-        sections.append(["[home]                               # not as drawn, where the mechanism is singular", *rows])
+        sections.append(
+            ["[home]                               # as the loops close, away from where it was drawn", *rows]
+        )
     if chosen.working:
         sections.append(_modes(chosen))
     ends = [f"{name} = [{low}, {high}]" for name, (low, high) in chosen.box.items()]
