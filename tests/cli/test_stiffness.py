@@ -5,6 +5,8 @@ import pytest
 
 import assur
 
+GEAR = "gear = { ratio = 50, stiffness = 2e5, rotor = 3e-6 }"
+HINGE = "B1 = [1e-8, 1e-8, 1e-8, 0, 1e-6, 1e-6]"
 POSE = ("-15.4714", "9.6849", "456.3315")
 
 
@@ -38,6 +40,52 @@ def test_rigid_links_leave_ways_in_which_nothing_gives_way(assur_cli):
     flat = assur_cli("stiffness", "planar_3rpr", "--pose", "30", "40", "0", "--json")
     assert (flat.code, flat.json["rank"], flat.json["stiffness"]) == (0, 3, None)
     assert flat.json["translational_eigenvalues"][2] is None
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A five-bar with a rod and hinges that give way by compliances, and geared drives."""
+    path = tmp_path / "own.toml"
+    text = (
+        assur.load("fivebar").file.read_text(encoding="utf-8").replace("stiffness = 1e5,", f"stiffness = 1e5, {GEAR},")
+    )
+    rod = next(line for line in text.splitlines() if line.startswith("rod1"))
+    soft = "compliance = [1e-8, 1e-7, 1e-7, 1e-5, 1e-5, 1e-5], mass = 0.2"
+    path.write_text(text.replace(rod, f"rod1 = {{ {soft} }}") + f"[compliances]\n{HINGE}\n", encoding="utf-8")
+    return path
+
+
+def test_compliances_and_gears_have_their_shares(assur_cli, own):
+    run = assur_cli("stiffness", str(own), "--pose", "0", "224", "--json")
+    shares = run.json["shares"]
+    assert run.code == 0
+    assert list(shares["joints"]) == ["B1"]
+    assert min(shares["kinds"][kind] for kind in ("given", "joints", "gears", "actuators")) > 0.0
+    assert shares["links"]["rod1"] == pytest.approx(shares["kinds"]["given"])
+    assert len(run.json["frequencies"]) == 6
+    told = assur_cli("stiffness", str(own), "--pose", "0", "224").out
+    assert "of that of the joints: B1 100.0%" in told
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        ("HINGE", "B1 = [1e-8, 1e-8, 1e-8, 0, 1e-6]", "compliances.B1: a list of 5"),
+        ("HINGE", 'B1 = "soft"', 'compliances.B1: "soft"; allowed: six numbers'),
+        ("HINGE", "B1 = [-1e-8, 1e-8, 1e-8, 0, 1e-6, 1e-6]", "compliances.B1: -1e-08 along x; allowed: a symmetric"),
+        ("HINGE", "B9 = [1e-8, 1e-8, 1e-8, 0, 1e-6, 1e-6]", "compliances.B9: unknown joint 'B9'"),
+        ("GEAR", "gear = 50", "gear: 50; allowed: a table"),
+    ],
+)
+def test_compliances_and_gears_that_are_none_are_told_with_their_line(assur_cli, own, right, wrong, told):
+    text = own.read_text(encoding="utf-8")
+    right = {"HINGE": HINGE, "GEAR": GEAR}[right]
+    line = next(number for number, row in enumerate(text.splitlines(), 1) if right in row)
+    own.write_text(text.replace(right, wrong, 1), encoding="utf-8")
+    run = assur_cli("stiffness", str(own), "--pose", "0", "224")
+    assert run.code == 3
+    assert f"own.toml:{line}: " in run.err
+    assert told in run.err
 
 
 def test_what_is_lacking_or_wrong_is_told(assur_cli, tmp_path):

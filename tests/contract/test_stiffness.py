@@ -5,12 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from assur.kinematics.pose import platform_frame
 from assur.kinematics.status import Status
+from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.elastic_reactions import elastic_reactions
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
-from assur.machine.forces.reactions import reactions
+from assur.machine.forces.reactions import child_points, reactions
+from assur.machine.masses.link_masses import masses
+from assur.machine.motion.inertia import link_inertia
 from assur.model.machine_data import LinkData
 from bending import bending, by_limbs, by_multipliers, given, serial_limbs, yielding
 from own_machines import every_mechanism
@@ -129,6 +133,28 @@ def test_reactions_are_unique_where_no_profile_changes_them_and_open_where_one_d
         np.testing.assert_allclose(bent[item.joint][item.unique], other[item.joint][item.unique], atol=1e-8 * size)
         apart = np.abs(bent[item.joint] - other[item.joint])[~item.unique]
         assert np.all(apart > 1e-7 * size)
+
+
+def test_the_base_bears_weight_and_load_however_often_the_platform_is_held(mechanism):
+    """Force, and moment about the base's origin, of all that the base passes: joints that yield, gears, beams."""
+    record, values, load = yielding(bending(mechanism)), place(mechanism), load_of([3.0, -4.0, 5.0, 0.6, 0.7, -0.8])
+    passed, points = elastic_reactions(forces_at(record, values, load)), child_points(record, values)
+    borne = sum(
+        (1.0 if joint.parent == record.base else -1.0) * _about_origin(passed[name], points[name])
+        for name, joint in record.joints.items()
+        if record.base in (joint.parent, joint.child)
+    )
+    inertia = link_inertia(record, values, masses(record))
+    weights = inertia.masses[:, None] * inertia.gravity
+    carried = np.concatenate([weights.sum(axis=0), np.cross(inertia.centres[0], weights).sum(axis=0)])
+    point = METRES[record.unit] * platform_frame(record, values)[1][0]
+    carried += _about_origin(np.concatenate([load.force, load.moment]), point)
+    np.testing.assert_allclose(borne, -carried, atol=1e-8 * np.abs(carried).max())
+
+
+def _about_origin(wrench, point):
+    """A wrench (6,) at a point (3,), its moment about the base's origin."""
+    return np.concatenate([wrench[:3], wrench[3:] + np.cross(point, wrench[:3])])
 
 
 def test_in_motion_bars_that_bend_pass_what_newton_and_euler_say(mechanism):
