@@ -88,6 +88,21 @@ def test_compliances_and_gears_that_are_none_are_told_with_their_line(assur_cli,
     assert told in run.err
 
 
+def test_sizes_in_millimetres_are_noted_and_without_density_there_are_no_frequencies(assur_cli, tmp_path):
+    path = tmp_path / "own.toml"
+    text = assur.load("fivebar").file.read_text(encoding="utf-8")
+    assert "round = 0.020" in text
+    path.write_text(text.replace("round = 0.020", "round = 20"), encoding="utf-8")
+    said = "is 20 m wide; sizes of profiles are in m"
+    assert f"profiles.bar20: {said}" in assur_cli("check", str(path)).out
+    assert f"bar20 {said}" in assur_cli("stiffness", str(path), "--pose", "0", "224", "--json").json["notes"]
+    line = next(line for line in text.splitlines() if "density = " in line)
+    path.write_text(text.replace(line, "steel = { E = 210e9, nu = 0.3 }"), encoding="utf-8")
+    bare = assur_cli("stiffness", str(path), "--pose", "0", "224", "--json")
+    assert (bare.code, bare.json["frequencies"], bare.json["mode_shapes"]) == (0, [], [])
+    assert any("no frequencies" in note for note in bare.json["notes"])
+
+
 def test_what_is_lacking_or_wrong_is_told(assur_cli, tmp_path):
     path = tmp_path / "own.toml"
     text = assur.load("fivebar").file.read_text(encoding="utf-8").replace("stiffness = 1e5, ", "")

@@ -11,7 +11,7 @@ from assur.kinematics.pose import platform_frame
 from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.model.machine_data import MachineData
-from assur.page.stiffness_layers import FURTHEST, THICK, THIN, stiffness_layers
+from assur.page.stiffness_layers import AWAY, FURTHEST, THICK, THIN, stiffness_layers
 from assur.page.turned_meshes import AROUND
 from assur.scene.companion import companion
 from assur.scene.skeleton import skeleton
@@ -34,13 +34,22 @@ def test_layers_are_the_compliance_and_the_deflected_machine(name):
     for layer, shape in zip(vibrations, shapes, strict=False):
         assert f"{shape.frequency:.3g} Hz" in layer.label
         curves = shape.deflected(FURTHEST * size * METRES[mechanism.unit])
+        centres = layer.vertices.reshape(-1, AROUND, 3).mean(axis=1)
         for link, share in shape.shares.links.items():
-            for point in np.reshape(curves.get(link, ()), (-1, 3)) / METRES[mechanism.unit]:
-                radius = size * (THIN + (THICK - THIN) * share)
-                near = np.linalg.norm(layer.vertices - point, axis=1)
-                ring = layer.vertices[np.abs(near - radius) < 1e-9 * size]
-                assert len(ring) >= AROUND
-                np.testing.assert_allclose(ring.mean(axis=0), point, atol=1e-9 * size)
+            radius = size * (THIN + (THICK - THIN) * share)
+            for curve in curves.get(link, np.empty((0, 9, 3))) / METRES[mechanism.unit]:
+                for end in (curve[0], curve[-1]):
+                    near = np.linalg.norm(layer.vertices - end, axis=1)
+                    assert np.sum(np.abs(near - radius) < 1e-9 * size) >= AROUND
+                    assert np.linalg.norm(centres - end, axis=1).min() < 1e-9 * size
+                assert max(_apart(centres, point) for point in curve) < 1.001 * AWAY * radius
+
+
+def _apart(centres, point):
+    """How far a point is from the nearest chord between neighbours (n, 3)."""
+    ways = np.diff(centres, axis=0)
+    shares = np.einsum("ij,ij->i", point - centres[:-1], ways) / np.maximum(np.einsum("ij,ij->i", ways, ways), 1e-300)
+    return np.linalg.norm(centres[:-1] + np.clip(shares, 0.0, 1.0)[:, None] * ways - point, axis=1).min()
 
 
 def test_without_springs_there_are_none():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -66,7 +67,17 @@ def check(
         found = found or _of_closed_form(record, deep)
         work.result = count(len(found), "fault")
     facts = None if found else _summary(record)
-    return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism, record, found))
+    notes = () if found else (*doubts(record), *_units(record))
+    return _outcome(record.name, found, notes, facts, _next(mechanism, record, found))
+
+
+def _units(record: MechanismRecord) -> Iterator[Problem]:
+    """Numbers of the machine that look as if another unit had been meant."""
+    from assur.machine.masses.slips import slips
+    from assur.model.file.place import place, problem
+
+    for slip in slips(record, {}):
+        yield replace(problem(record, place(record, slip.table, slip.name), slip.given, ""), allowed=slip.meant)
 
 
 def _of_closed_form(record: MechanismRecord, deep: bool) -> tuple[Problem, ...]:

@@ -23,6 +23,7 @@ from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
 from assur.machine.elasticity.springs import ACTUATORS, JOINTS
 from assur.machine.elasticity.stiffness import Stiffness
 from assur.machine.elasticity.structure import yields
+from assur.machine.masses.slips import slips
 from assur.machine.motion.screws import pose_metres
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
@@ -67,6 +68,7 @@ def _answer(record: Mechanism, pose: NDArray[Any], mode: str, solved: Stiffness)
     vibrations = solved.vibrations() if held else None
     lost = why_lost(record, pose, mode, status)
     notes = [NOT_HELD] if status == Status.parallel else [*lost.notes]
+    notes += map(str, slips(record, {}))
     if held and not yields(record):
         notes.append("no link has a profile: only the actuators give way")
     if vibrations and vibrations.lacking:

@@ -28,6 +28,8 @@ LONGEST, FURTHEST = 0.2, 0.12
 """Of the mechanism's size: the longest semi-axis, and how far the point goes that moves most."""
 THIN, THICK = 0.005, 0.015
 """Of the mechanism's size: radii of a tube in which there is no energy, and in which there is all."""
+AWAY = 0.1
+"""Share of its radius by which a tube may leave its curve: what hardly bends needs no rings on the way."""
 THINNEST = 1e-3
 """Share of the longest semi-axis that the others have at least, so that a flat ellipsoid is seen."""
 MICRO = 1e6
@@ -78,8 +80,26 @@ def _tubes(curves: Mapping[str, FloatArray], shares: Mapping[str, float], size: 
         radius = size * (THIN + (THICK - THIN) * shares.get(link, 0.0))
         for curve in own:
             ends = [*pairwise(curve), *([(curve[-1], curve[0])] if len(curve) > 2 else [])]
-            parts = [curve] if link in shares else [np.stack(pair) for pair in ends]
+            parts = [_thinned(curve, AWAY * radius)] if link in shares else [np.stack(pair) for pair in ends]
             yield from (tube(part, radius) for part in parts if np.ptp(part, axis=0).any())
+
+
+def _thinned(curve: FloatArray, tolerance: float) -> FloatArray:
+    """Of points (2^n + 1, 3) every 2^k-th, as few as leave the others within a tolerance of the chords between them.
+
+    >>> line, bow = np.linspace([0.0, 0, 0], [1.0, 0, 0], 9), np.linspace(0.0, 1.0, 9)[:, None] ** [1, 2, 3]
+    >>> len(_thinned(line, 1e-3)), len(_thinned(bow, 1e-1)), len(_thinned(bow, 1e-3))
+    (2, 5, 9)
+    """
+    places = np.arange(len(curve))
+    step = len(curve) - 1
+    while step > 1:
+        kept = places[::step]
+        chords = np.stack([np.interp(places, kept, part) for part in curve[kept].T], axis=-1)
+        if np.max(np.linalg.norm(chords - curve, axis=1)) <= tolerance:
+            return curve[kept]
+        step //= 2
+    return curve
 
 
 def _ball(rings: int = 12, sides: int = 24) -> Mesh:

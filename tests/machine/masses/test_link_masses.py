@@ -82,6 +82,17 @@ def test_what_is_not_said_is_told():
         masses(with_data("fivebar", {"rod1": LinkData(material="steel")}))
 
 
+def test_a_material_without_density_leaves_its_links_without_mass():
+    record = load_record("zeng2019")
+    steel = replace(record.machine.materials["steel"], density=None)
+    bare = replace(record, machine=replace(record.machine, materials={"steel": steel}))
+    assert set(masses(bare).lacking) == {name for name, data in record.machine.links.items() if data.profile}
+    assert set(masses(bare).bodies) == {"slider1", "slider2", "slider3", "platform"}
+    with pytest.raises(UsageError, match="no mass of link9") as error:
+        all_masses(bare)
+    assert error.value.hint.endswith("[materials]: steel = { ..., density = 7850 }, in kg/m3")
+
+
 def test_a_mass_beyond_reason_is_noted():
     assert masses(with_data("fivebar", {"rod1": LinkData(mass=1e6)})).notes == (
         "rod1 weighs 1e+06 kg; masses are in kg",

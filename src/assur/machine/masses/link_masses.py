@@ -29,7 +29,7 @@ class Masses:
         bodies: of every link of which the file says it.
         payload: what the platform carries, in its frame; None where there is nothing.
         gravity: (3,) in m/s2, in the base frame.
-        lacking: links of which nothing is said.
+        lacking: links of which nothing is said, or a material without its density.
         notes: what looks like a slip.
     """
 
@@ -64,7 +64,7 @@ def masses(record: MechanismRecord) -> Masses:
         own = data.links.get(link)
         if link == record.base:
             continue
-        if own is None or not own.weighs:
+        if own is None or not own.weighs or _without_density(record, own):
             lacking.append(link)
         else:
             bodies[link] = _body(record, link, own)
@@ -74,7 +74,7 @@ def masses(record: MechanismRecord) -> Masses:
         payload = _given(data.payload, centre * metre, "platform's point")
     carried = {**bodies, **({"the payload": payload} if payload else {})}
     gravity = data.gravity.direction * data.gravity.value
-    return Masses(bodies, payload, gravity, tuple(lacking), tuple(slips(record, carried)))
+    return Masses(bodies, payload, gravity, tuple(lacking), tuple(map(str, slips(record, carried))))
 
 
 def all_masses(record: MechanismRecord) -> Masses:
@@ -85,11 +85,20 @@ def all_masses(record: MechanismRecord) -> Masses:
     """
     known = masses(record)
     if known.lacking:
-        raise UsageError(
-            f"{record.name}: no mass of {', '.join(known.lacking)}",
-            hint=f"{entry_hint(record, 'links', known.lacking[0], 'mass = 1.2')}, in kg",
-        )
+        first = known.lacking[0]
+        own = record.machine.links.get(first)
+        hint = f"{entry_hint(record, 'links', first, 'mass = 1.2')}, in kg"
+        if own and own.material and _without_density(record, own):
+            hint = f"{entry_hint(record, 'materials', own.material, 'density = 7850')}, in kg/m3"
+        raise UsageError(f"{record.name}: no mass of {', '.join(known.lacking)}", hint=hint)
     return known
+
+
+def _without_density(record: MechanismRecord, data: LinkData) -> bool:
+    """Whether a link weighs as its material does, of which the file does not say the density."""
+    if data.material is None or data.mass is not None or data.kg_per_m is not None:
+        return False
+    return record.machine.materials[data.material].density is None
 
 
 def _body(record: MechanismRecord, link: str, data: LinkData) -> RigidBody:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,8 +22,21 @@ FAR = 10.0
 """Characteristic lengths beyond which nothing is expected that belongs to a link."""
 
 
-def slips(record: MechanismRecord, carried: Mapping[str, RigidBody]) -> Iterator[str]:
-    """Sentences about numbers of a file; none where they can be meant.
+@dataclass(frozen=True)
+class Slip:
+    """A number of an entry of a file's table: what it says, and in which unit such numbers are."""
+
+    table: str
+    name: str
+    given: str
+    meant: str
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.given}; {self.meant}"
+
+
+def slips(record: MechanismRecord, carried: Mapping[str, RigidBody]) -> Iterator[Slip]:
+    """Numbers of a file, and of bodies by their links, that look so; none where they can be meant.
 
     >>> from assur.model.registry import load_record
     >>> list(slips(load_record("fivebar"), {}))
@@ -31,15 +45,18 @@ def slips(record: MechanismRecord, carried: Mapping[str, RigidBody]) -> Iterator
     data, length = record.machine, METRES[record.unit] * characteristic_length(record)
     for name, body in carried.items():
         if body.mass >= HEAVY:
-            yield f"{name} weighs {body.mass:g} kg; masses are in kg"
+            yield Slip("links", name, f"weighs {body.mass:g} kg", "masses are in kg")
         turning = float(np.linalg.eigvalsh(body.inertia)[-1])
         if body.mass < HEAVY and turning > body.mass * (FAR * length) ** 2:
-            yield f"{name} has the inertia {turning:g} kg m2, as of its mass some metres away; inertia is in kg m2"
+            given = f"has the inertia {turning:g} kg m2, as of its mass some metres away"
+            yield Slip("links", name, given, "inertia is in kg m2")
     for material in data.materials.values():
         if material.density is not None and not DENSITIES[0] <= material.density <= DENSITIES[1]:
-            yield f"{material.name} has the density {material.density:g} kg/m3; densities are in kg/m3"
+            given = f"has the density {material.density:g} kg/m3"
+            yield Slip("materials", material.name, given, "densities are in kg/m3")
         if material.elasticity is not None and material.elasticity < SOFT:
-            yield f"{material.name} has E = {material.elasticity:g} Pa; moduli are in Pa"
+            yield Slip("materials", material.name, f"has E = {material.elasticity:g} Pa", "moduli are in Pa")
     for profile in data.profiles.values():
         if profile.sizes and max(profile.sizes) > length:
-            yield f"{profile.name} is {max(profile.sizes):g} m wide; sizes of profiles are in m"
+            given = f"is {max(profile.sizes):g} m wide"
+            yield Slip("profiles", profile.name, given, "sizes of profiles are in m")
