@@ -4,12 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_hex
 
 import assur
 from assur.figures import catalogue as figures
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.model.machine_data import MachineData
+from bending import bending
+from own_machines import ELASTIC, own_machine
 
 STRAINED = ("stiffness", "weakest", "vibrations")
 
@@ -57,3 +60,28 @@ def test_a_file_without_springs_says_the_line_that_lacks(drawn):
     bare = figures.Context(replace(drawn.record, machine=MachineData()))
     why = figures.left_out(bare.record, bare)
     assert all("stiffness" in why[name] and "P1" in why[name] for name in STRAINED)
+
+
+def _room_beside(figure):
+    """Inches between what is drawn and the nearest edge of the page."""
+    drawn_box = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer())
+    (left, bottom), (right, top) = drawn_box.min, figure.get_size_inches() - drawn_box.max
+    return min(left, bottom, right, top)
+
+
+@pytest.mark.parametrize(
+    "name", ["three_prr", *(pytest.param(name, marks=pytest.mark.deep) for name in ("par4", "hybrid", *ELASTIC))]
+)
+@pytest.mark.parametrize("width", [88.9, pytest.param(175.0, marks=pytest.mark.deep)])
+def test_of_a_drafted_machine_they_are_drawn_on_the_page_in_colours_of_its_links(name, width):
+    record = bending(own_machine(name))
+    context = figures.Context(record, page=width)
+    for kind in ("stiffness", "vibrations"):
+        assert _room_beside(figures.drawing(record, kind, context).figure) > -0.01
+    whole = figures.drawing(record, "stiffness", context)
+    machine, bars = whole.figure.axes[:2]
+    shown = {line.get_color() for line in machine.lines} | {to_hex(face.get_edgecolor()) for face in machine.patches}
+    named = zip((label.get_text() for label in bars.get_yticklabels()), bars.patches, strict=True)
+    coloured = [to_hex(bar.get_facecolor()) for link, bar in named if link in record.links]
+    assert len(coloured) > 2
+    assert set(coloured) <= shown
