@@ -38,6 +38,7 @@ SAYING = [path for path in PAGES if OUTPUT.search(text_of(path)) or "\n>>> " in 
 def test_what_it_shows_is_what_comes_out(path, capsys, tmp_path, monkeypatch):
     """Its commands one after the other in one folder, as a reader would take them, then its Python there."""
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").symlink_to(DOCS.parent / "examples")
     for source, target, changes, file, content, command, shown in STEP.findall(text_of(path)):
         if source:
             edit(source, target, changes)

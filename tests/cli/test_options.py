@@ -17,7 +17,7 @@ OTHER = {
     "--poses": ("poses.csv",), "--count": ("6",), "--by": ("O2",), "--measure": ("x",), "--centre": ("0,10,0",),
     "--section": ("200",), "--near": ("5",), "--gap": ("0.05",), "--finest": ("20",), "--boxes": ("3",),
     "--prove": ("x=-5:5",), "--largest": ("cube",), "--around": ("x=0",), "--ratio": ("2",), "--set": ("l2=190",),
-    "--samples": ("500",),
+    "--samples": ("500",), "--copies": ("link",),
 }  # fmt: skip
 """A value of each option that is another than what holds without it."""
 SHARED = {"--json", "--debug", "--run-code"}

@@ -66,16 +66,28 @@ def outcome(
 def changed(record: Mechanism, text: str, parameters: Mapping[str, float]) -> str:
     """The text of a mechanism's file with other numbers of dimensions, and offsets of inputs.
 
+    A dimension that was a formula becomes the number that it is found to be; inputs of a template of limbs get a list.
+
     Errors:
-        UsageError: a number that does not stand on a line of its own table, as one that is a formula.
+        UsageError: a number that does not stand on a line of its own table.
     """
     for name, value in parameters.items():
         if name in record.parameters:
-            text = _replaced(text, "parameters", name, "value", value)
-    for item in record.inputs:
-        if parameters.get(item.name):
-            label = record.coordinate_label(item.coordinate)
-            text = _replaced(text, "inputs", label, "offset", _offset(record, item, parameters[item.name]))
+            text = _replaced(text, "parameters", name, "value", repr(value))
+    moved = [item for item in record.inputs if parameters.get(item.name)]
+    templates = re.findall(r"^\[limbs\.([\w-]+)\.inputs\]", text, re.MULTILINE)
+    for item in moved:
+        label = record.coordinate_label(item.coordinate)
+        limb, _, local = label.rpartition(".")
+        own = [name for name in templates if re.fullmatch(rf"{re.escape(name)}\d+", limb)]
+        if own:
+            alike = re.compile(rf"{re.escape(own[0])}\d+\.{re.escape(local)}")
+            every = [part for part in record.inputs if alike.fullmatch(record.coordinate_label(part.coordinate))]
+            offsets = ", ".join(repr(_offset(record, part, parameters.get(part.name, 0.0))) for part in every)
+            text = _replaced(text, f"limbs.{own[0]}.inputs", local, "offsets", f"[{offsets}]")
+        else:
+            offset = _offset(record, item, parameters[item.name])
+            text = _replaced(text, "inputs", label, "offset", repr(offset))
     return text
 
 
@@ -85,25 +97,23 @@ def _offset(record: Mechanism, own: Input, added: float) -> float:
     return (own.offset - added) / unit
 
 
-def _replaced(text: str, title: str, name: str, key: str, value: float) -> str:
-    """The text with another number of a key in an entry that stands on one line of a table."""
-    start = re.search(rf"^\[{title}\]", text, re.MULTILINE)
+def _replaced(text: str, title: str, name: str, key: str, value: str) -> str:
+    """The text with another number, or list of them, of a key in an entry that stands on one line of a table."""
+    start = re.search(rf"^\[{re.escape(title)}\]", text, re.MULTILINE)
     first = start.end() if start else len(text)
     end = re.search(r"^\[", text[first:], re.MULTILINE)
     table_text = text[first : first + end.start()] if end else text[first:]
     line = re.search(rf"^\s*[\"']?{re.escape(name)}[\"']?\s*=\s*\{{.*$", table_text, re.MULTILINE)
-    hint = f"add --hold {name}, or leave -o out"
     if line is None:
+        hint = f"add --hold {name}, or leave -o out"
         raise UsageError(f"{name} is not on a line of [{title}]: no file is written", hint=hint)
     old = line.group()
-    number = re.search(rf"\b{key}\s*=\s*([-+.\deE_]+)(?=\s*[,}}])", old)
-    if number is not None:
-        new = old[: number.start(1)] + repr(value) + old[number.end(1) :]
-    elif re.search(rf"\b{key}\s*=", old):
-        raise UsageError(f"{name}: its {key} is a formula: no file is written", hint=hint)
+    written = re.search(rf"\b{key.removesuffix('s')}s?\s*=\s*(\[[^\]]*\]|\"[^\"]*\"|'[^']*'|[-+.\w]+)", old)
+    if written is not None:
+        new = f"{old[: written.start()]}{key} = {value}{old[written.end() :]}"
     else:
         brace = old.rindex("}", 0, old.index("#") if "#" in old else len(old))
-        new = f"{old[:brace].rstrip()}, {key} = {value!r} {old[brace:]}"
+        new = f"{old[:brace].rstrip()}, {key} = {value} {old[brace:]}"
     return text[: first + line.start()] + new + text[first + line.end() :]
 
 

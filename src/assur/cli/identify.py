@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -37,6 +37,10 @@ def identify(
         ),
     ] = None,
     centre: Centre = None,
+    copies: Annotated[
+        Literal["limb", "link"] | None,
+        Parameter(help="Dimensions of each limb, or of each link, are unknown by themselves; else alike in all."),
+    ] = None,
     frame: Annotated[bool, Parameter(help="The measuring frame's place is unknown too.")] = False,
     mode: WorkingMode = None,
     shared: Shared = SHARED_DEFAULTS,
@@ -47,11 +51,14 @@ def identify(
     offset of each input, and the measuring frame's place with --frame. It says
     how many combinations of them the poses tell, which they do not, in words,
     and how well the poses show the rest by the indices O1 to O5. With --count
-    the poses are chosen among many more so that one of these is large.
+    the poses are chosen among many more so that one of these is large. With
+    --copies limb or --copies link each limb's or link's own copy of a dimension
+    counts by itself: that is where parts differ that should be alike.
 
     For example:
         assur identify zeng2019 --count 20
         assur identify delta_4s --count 20 --measure z --frame
+        assur identify delta_4s --count 20 --copies limb
         assur identify delta_4s --count 12 --measure distance --centre 0,0,-0.7
     """
     record = shared.mechanism(mechanism)
@@ -68,7 +75,9 @@ def identify(
     if count is None:
         refuse("the poses are given", "it goes with --count", by=by)
     names = tuple(name.strip() for name in measure.split(",")) if measure is not None else ()
-    told = partial(identification, record, measured=names, frame=frame, centre=centre_of(centre), mode=mode)
+    told = partial(
+        identification, record, measured=names, frame=frame, centre=centre_of(centre), mode=mode, copies=copies
+    )
     if count is None:
         return identified.outcome(record, told(poses=pose_table(record, poses or "")), mode)
     if not 1 <= (number := whole_number(count, "--count")) <= 10_000:

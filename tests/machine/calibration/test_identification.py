@@ -8,6 +8,7 @@ import pytest
 import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.machine.calibration.chosen_poses import random_poses
+from assur.machine.calibration.dimensions import dimensions
 from assur.machine.calibration.identification import Identification, identification
 
 
@@ -95,6 +96,39 @@ def test_heights_over_a_plate_do_not_tell_a_deltas_arms_where_the_gauge_begins_a
     )
     known = identification(record, plate, ["z"])
     assert not [part for part in known.unidentifiable if "L" in part.combination]
+
+
+def test_each_limbs_and_each_links_own_dimensions_are_told_apart_or_said_to_act_together():
+    """A Delta's limbs and its rods, of which each has a length of its own, by positions alone."""
+    record = assur.load("delta_4s")
+    poses = random_poses(record, 12)
+    own = identification(record, poses, copies="limb")
+    assert [part.words for part in own.unidentifiable] == [
+        *(f"leg{number}.h does not act" for number in (1, 2, 3)),
+        *(f"leg{number}.wB and leg{number}.uP act by their difference" for number in (1, 2, 3)),
+    ]
+    by_link = identification(record, poses, copies="link")
+    rods = {f"leg{leg}.rod{rod}.l" for leg in (1, 2, 3) for rod in (1, 2)}
+    assert rods < set(by_link.parameters)
+    assert not any(rods & {*part.combination} for part in by_link.unidentifiable)
+    for part in (own, by_link):
+        for row in part.unidentifiable:
+            moved = part.matrix @ [row.combination.get(name, 0.0) for name in part.parameters]
+            np.testing.assert_allclose(moved, 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "three_crr", "three_rps"])
+@pytest.mark.parametrize("copies", ["limb", "link"])
+def test_copies_together_are_the_dimension(name, copies):
+    """All copies of one off by one are the dimension off by one; a whole stands where its copies are not all of it."""
+    record = assur.load(name)
+    errors = record.errors(random_poses(record, 1)[0])
+    names = dimensions(record, copies)
+    for whole in dimensions(record):
+        if whole not in names and all(np.isfinite(errors.sensitivity[own]).all() for own in names):
+            parts = [errors.sensitivity[own] for own in names if own.endswith(f".{whole}")]
+            np.testing.assert_allclose(np.sum(parts, axis=0), errors.sensitivity[whole], atol=1e-6)
+    assert len(set(names)) == len(names) >= len(dimensions(record))
 
 
 def test_nothing_told_is_nothing_observed():

@@ -221,3 +221,15 @@ def test_two_limbs_at_one_place_are_refused(faults: Faults, old: str, new: str) 
         f"f.toml:15: limbs.leg.repeat.angles[{which[1]}]: limbs {which[0]} at one place; "
         "allowed: each limb at its own angle"
     )
+
+
+def test_inputs_of_a_template_may_have_an_offset_for_each_limb(read: Read, faults: Faults) -> None:
+    """In the order in which they are numbered, whatever the order of the inputs; as many as limbs, and nowhere else."""
+    lines = DELTA.splitlines()
+    (own,) = [line for line in lines if '"q"' in line]
+    given = own.replace("}", ", offsets = [1, 2, 30] }")
+    record = read(DELTA.replace(own, given))
+    unit = record.angle_unit
+    assert {item.name: round(item.offset / unit, 9) for item in record.inputs} == {"q1": 1.0, "q2": 2.0, "q3": 30.0}
+    (fault,) = faults(DELTA.replace(own, given.replace("2, ", "")))
+    assert "2 offsets of 3 limbs" in fault

@@ -16,26 +16,21 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.joint_graph.frames import Frame
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics import position
-from assur.kinematics.closure import assemble
-from assur.kinematics.home import home_values
-from assur.kinematics.pose import platform_frame
-from assur.machine.calibration.identification import matrix_rank, reduced, slopes_at
-from assur.machine.calibration.measured import AT_BASE, FRAME, Measured, aligned, seen
-from assur.model.dimensions import with_parameters
+from assur.machine.calibration.identification import matrix_rank, reduced
+from assur.machine.calibration.measured import FRAME, Measured
+from assur.machine.calibration.measurements import SAME, Guess, Measurements
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS
-from assur.numerics.rotations import from_vector, to_vector, vector_rates_matrix
+from assur.numerics.rotations import to_vector, vector_rates_matrix
 
 FloatArray = NDArray[np.float64]
 STEPS, ENOUGH = 50, 1e-9
 """Steps at most, and the step, as a share of the characteristic length, after which there are no more."""
 DAMPED, MOST = 1e-3, 1e6
 """Shares of the squares of a column that are added to it: at first, and beyond which no step is better."""
-WAY, SAME = 10, 0.1
-"""Steps from home to the inputs, and the share of the characteristic length by which a pose so met may be off."""
 BESIDE, AGAIN = 5.0, 8
 """Times the spread of the others by which a measurement is off that does not count; how often that is asked."""
+FAR = 20.0
+"""Times the middle one of all before the fit: what a slip of the pen would draw the dimensions to."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,134 +60,6 @@ class Calibration:
         return dict(zip(self.parameters, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
 
 
-@dataclass(frozen=True, eq=False)
-class _Guess:
-    """Dimensions, joint values (N, n) of each measurement, what is added to inputs (n,), the measuring frame."""
-
-    record: MechanismRecord
-    values: FloatArray
-    added: FloatArray
-    frame: Frame
-
-    def of(self, rows: FloatArray) -> _Guess:
-        return replace(self, values=self.values[rows])
-
-
-@dataclass(frozen=True, eq=False)
-class _Fit:
-    """Measurements of a mechanism: printed inputs (N, n), what is measured, and the readings (N, k)."""
-
-    record: MechanismRecord
-    inputs: FloatArray
-    measured: Measured
-    readings: FloatArray
-    framed: bool
-
-    def of(self, rows: FloatArray) -> _Fit:
-        return replace(self, inputs=self.inputs[rows], readings=self.readings[rows])
-
-    def off(self, guess: _Guess) -> FloatArray:
-        """What is measured less what should be read (N, k), as lengths."""
-        return self.measured.off(self.readings, self.measured.read(self._platform(guess), guess.frame))
-
-    def _platform(self, guess: _Guess) -> Frame:
-        return platform_frame(guess.record, guess.values)
-
-    def first(self) -> _Guess:
-        """With the file's dimensions: of all assemblies those next to what is measured."""
-        near = None if self.record.closed_form else self._from_home()
-        if near is not None:
-            guess = _Guess(self.record, near, np.zeros(len(self.record.inputs)), AT_BASE)
-            guess = self._framed(guess) if self.framed else guess
-            if np.linalg.norm(self.off(guess), axis=1).max() <= SAME * self.measured.length:
-                return guess
-        answers = []
-        for number, printed in enumerate(self.inputs, 1):
-            answer = position.direct(self.record, printed)
-            if not answer.exists.any():
-                raise UsageError(
-                    f"measurement {number}: no pose of {self.record.name} at these inputs", hint="leave it out"
-                )
-            answers.append(answer.joints)
-        record = self.record.without_closed_form
-        guesses = [_Guess(record, self._nearest(answers, AT_BASE), np.zeros(len(record.inputs)), AT_BASE)]
-        if self.framed:  # where the frame is says one assembly of all poses
-            for place in range(max(map(len, answers))):
-                same = [joints[min(place, len(joints) - 1)] for joints in answers]
-                if np.all(np.isfinite(same)):
-                    guesses.append(replace(guesses[0], values=np.array(same)))
-            guesses = [self._framed(guess) for guess in guesses]
-            best = min(guesses, key=lambda guess: float(np.linalg.norm(self.off(guess))))
-            guesses = [self._framed(replace(best, values=self._nearest(answers, best.frame)))]
-        return guesses[0]
-
-    def _from_home(self) -> FloatArray | None:
-        """Joint values (N, n), followed from home to the inputs; None where a pose is lost on the way."""
-        values = np.tile(home_values(self.record), (len(self.inputs), 1))
-        held = self.record.input_indices
-        ends = values[:, list(held)].copy()
-        for place, item in enumerate(self.record.inputs):
-            ends[:, place] = item.joint_value(self.inputs[:, place])
-        begins = values[:, list(held)].copy()
-        for share in np.linspace(0.0, 1.0, WAY + 1)[1:]:
-            values[:, list(held)] = begins + share * (ends - begins)
-            assembled = assemble(self.record, values, held=held, near=True)
-            if not assembled.closed.all():
-                return None
-            values = assembled.values
-        return values
-
-    def _nearest(self, answers: Sequence[FloatArray], frame: Frame) -> FloatArray:
-        chosen = []
-        for joints, row in zip(answers, self.readings, strict=True):
-            kept = joints[np.isfinite(joints).all(axis=1)]
-            read = self.measured.read(platform_frame(self.record, kept), frame)
-            chosen.append(kept[np.argmin(np.linalg.norm(self.measured.off(row, read), axis=1))])
-        return np.array(chosen)
-
-    def _framed(self, guess: _Guess) -> _Guess:
-        """The measuring frame that fits the lengths best; those that are not measured stay as they are."""
-        names = [name for name in LENGTHS if name in self.measured.names]
-        if len(names) < 2:
-            return guess
-        own = [LENGTHS.index(name) for name in names]
-        points, read = (np.zeros((len(self.inputs), 3)) for _ in range(2))
-        points[:, own] = seen(self._platform(guess), AT_BASE)[1][:, own]
-        read[:, own] = self.readings[:, [self.measured.names.index(name) for name in names]]
-        return replace(guess, frame=aligned(points, read))
-
-    def moved(self, guess: _Guess, step: Mapping[str, float]) -> _Guess:
-        """The guess with steps of parameters, each pose solved again.
-
-        Errors:
-            UsageError: a measurement that does not assemble so.
-        """
-        sizes = {name: item.value + step.get(name, 0.0) for name, item in guess.record.parameters.items()}
-        record = with_parameters(guess.record, **sizes)
-        added = guess.added + [step[item.name] for item in record.inputs]
-        start = guess.values.copy()
-        for place, item in enumerate(record.inputs):
-            start[:, item.coordinate.index] = item.joint_value(self.inputs[:, place] + added[place])
-        assembled = assemble(record, start, held=record.input_indices, near=True)
-        if not assembled.closed.all():
-            raise UsageError(f"measurement {int(np.argmin(assembled.closed)) + 1} does not assemble on the way")
-        turn, point = guess.frame
-        shift = np.array([step.get(name, 0.0) for name in FRAME])
-        return _Guess(record, assembled.values, added, (from_vector(shift[3:]) @ turn, point + shift[:3]))
-
-    def slopes(self, guess: _Guess) -> tuple[tuple[str, ...], FloatArray, FloatArray]:
-        """Names, change (N k, p) of what is measured, and what one is of each parameter; the frame's first."""
-        rows: list[FloatArray] = []
-        names: tuple[str, ...] = ()
-        scales = np.zeros(0)
-        for number, joints in enumerate(guess.values, 1):
-            named = f"measurement {number}"
-            names, row, scales = slopes_at(guess.record, joints, self.measured, named, guess.frame, frame=self.framed)
-            rows.append(row)
-        order = sorted(range(len(names)), key=lambda k: names[k] not in FRAME)
-        return tuple(names[k] for k in order), np.concatenate(rows)[:, order], scales[order]
-
-
 def calibration(
     record: MechanismRecord,
     inputs: FloatArray,
@@ -216,10 +83,10 @@ def calibration(
         UsageError: a measurement that is no pose, or too few of them.
         UnknownNameError: what is to be held is none of the parameters.
     """
-    whole = _Fit(record, inputs, measured, readings, frame)
+    whole = Measurements(record, inputs, measured, readings, frame)
     first = whole.first()
-    kept = np.ones(len(readings), dtype=bool)
     least = 1e-9 * characteristic_length(record)
+    kept = _near(whole, first, least)
     for _ in range(AGAIN):
         fit, start = whole.of(kept), first.of(kept)
         names, best, covariance, held = _fitted(fit, start, hold)
@@ -242,7 +109,23 @@ def calibration(
     )
 
 
-def _everywhere(whole: _Fit, first: _Guess, best: _Guess) -> _Guess:
+def _near(whole: Measurements, first: Guess, least: float) -> NDArray[np.bool_]:
+    """Which measurements (N,) a fit begins with: not those that the file's dimensions are far beside of all others.
+
+    Errors:
+        UsageError: half of them are so far away that units or the measuring frame are others.
+    """
+    off = np.linalg.norm(whole.off(first), axis=1)
+    middle, record = float(np.median(off)), whole.record
+    if not whole.framed and middle > SAME * characteristic_length(record):
+        raise UsageError(
+            f"half of the measurements are off by more than {middle:.4g} {record.unit} with the file's dimensions",
+            hint=f"inputs and angles in {record.angle}, lengths in {record.unit}? else a frame of its own: --frame",
+        )
+    return np.asarray(off <= max(FAR * middle, least))
+
+
+def _everywhere(whole: Measurements, first: Guess, best: Guess) -> Guess:
     """The best guess at all measurements, those among them that were left out."""
     own = [item.name for item in whole.record.inputs]
     step = {name: item.value - first.record.parameters[name].value for name, item in best.record.parameters.items()}
@@ -250,8 +133,8 @@ def _everywhere(whole: _Fit, first: _Guess, best: _Guess) -> _Guess:
 
 
 def _fitted(
-    fit: _Fit, guess: _Guess, hold: Sequence[str]
-) -> tuple[tuple[str, ...], _Guess, FloatArray, tuple[str, ...]]:
+    fit: Measurements, guess: Guess, hold: Sequence[str]
+) -> tuple[tuple[str, ...], Guess, FloatArray, tuple[str, ...]]:
     """Names of what is told, the best guess, the covariance (p, p), and what is held."""
     start, length, damping = guess, characteristic_length(fit.record), DAMPED
     names, slopes, scales = fit.slopes(guess)
@@ -261,6 +144,8 @@ def _fitted(
         raise UsageError(f"{size} numbers are measured, {len(free)} are unknown", hint="measure more poses")
     for _ in range(STEPS):
         narrow, off = slopes[:, free] * scales[free], fit.off(guess)
+        if not (np.all(np.isfinite(narrow)) and np.all(np.isfinite(off))):
+            raise UsageError("no dimensions near those of the file fit", hint="are all columns in the file's units?")
         trial = None
         while trial is None and damping <= MOST:
             step = _damped(narrow, off.ravel(), damping)
@@ -302,7 +187,7 @@ def _damped(narrow: FloatArray, off: FloatArray, damping: float) -> FloatArray:
     return np.asarray(np.linalg.lstsq(np.concatenate([narrow, more]), padded)[0])
 
 
-def _better(fit: _Fit, guess: _Guess, moved: Mapping[str, float], size: float) -> _Guess | None:
+def _better(fit: Measurements, guess: Guess, moved: Mapping[str, float], size: float) -> Guess | None:
     """What a step leads to; None where less fits, or a pose does not assemble."""
     try:
         trial = fit.moved(guess, moved)

@@ -20,6 +20,7 @@ from assur.kinematics.pose import platform_frame
 from assur.kinematics.rates.acceleration import joints_in_mode
 from assur.kinematics.status import Status
 from assur.machine.accuracy.pose_errors import pose_errors_at
+from assur.machine.calibration.dimensions import Owner, dimensions
 from assur.machine.calibration.measured import AT_BASE, FRAME, TURNS, Measured, measured_of, of_frame
 from assur.model.mechanism import MechanismRecord
 
@@ -114,6 +115,7 @@ def identification(
     frame: bool = False,
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0),
     mode: str | None = None,
+    copies: Owner | None = None,
 ) -> Identification:
     """What poses (N, m), in the mechanism's unit and rad, tell of its dimensions.
 
@@ -124,6 +126,7 @@ def identification(
         frame: whether the measuring frame's place is unknown too.
         centre: from which a distance is measured, in the measuring frame, near the base's.
         mode: the working mode.
+        copies: whose dimensions are unknown each by itself, every limb's or every link's; else they are alike in all.
 
     Errors:
         UsageError: a pose that is not reached, or at which the inputs do not hold the platform; nothing measured.
@@ -143,7 +146,9 @@ def identification(
     parameters: tuple[str, ...] = ()
     scales = np.zeros(0)
     for number, joints in enumerate(joints_in_mode(record, poses, mode), 1):
-        parameters, row, scales = slopes_at(record, joints, own, f"pose {number} of {record.name}", frame=frame)
+        parameters, row, scales = slopes_at(
+            record, joints, own, f"pose {number} of {record.name}", frame=frame, copies=copies
+        )
         rows.append(row)
     matrix = np.concatenate(rows)
     fit = ~np.isnan(matrix).any(axis=0)
@@ -152,7 +157,14 @@ def identification(
 
 
 def slopes_at(
-    record: MechanismRecord, joints: FloatArray, measured: Measured, named: str, at: Frame = AT_BASE, *, frame: bool
+    record: MechanismRecord,
+    joints: FloatArray,
+    measured: Measured,
+    named: str,
+    at: Frame = AT_BASE,
+    *,
+    frame: bool,
+    copies: Owner | None = None,
 ) -> tuple[tuple[str, ...], FloatArray, FloatArray]:
     """Parameters (p), change (k, p) of what is measured, as lengths, per one of each, and what one of each is (p,).
 
@@ -165,6 +177,7 @@ def slopes_at(
         named: the pose, as errors name it.
         at: where the measuring frame is.
         frame: whether its place is a parameter.
+        copies: whose dimensions are parameters each by itself.
 
     Errors:
         UsageError: a pose that is not reached, or at which the inputs do not hold the platform.
@@ -173,8 +186,7 @@ def slopes_at(
     if errors is None or errors.status != Status.regular:
         why = "is not reached" if errors is None else "is not held by the inputs"
         raise UsageError(f"{named} {why}", hint="leave it out")
-    inputs = [item.name for item in record.drives]
-    names = tuple(name for name in errors.sensitivity if "." not in name or name in inputs)
+    names = (*dimensions(record, copies), *(item.name for item in record.drives))
     turn, point = (part[0] for part in platform_frame(record, joints[None]))
     moved = np.array([errors.sensitivity[name] for name in names]).T
     plain = [errors.units[name] != record.unit for name in names]  # angles, and shares

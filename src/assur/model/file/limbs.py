@@ -89,6 +89,7 @@ def expand(description: Description, faults: Faults) -> Tables:
         for name, entry in entries.items():
             alone = table == "links" and "." in name
             getattr(tables, "single_links" if alone else table)[name] = Placed(name, entry, (table, name))
+    _check_offsets(file, instances, faults)
     for limb, group in instances.items():
         for instance in group:
             _repeat(tables, file.limbs[limb], instance)
@@ -136,7 +137,22 @@ def _numbered(entry: schema.InputEntry, number: int) -> schema.InputEntry:
     """The input of one limb: its number behind the name, and as an index in LaTeX."""
     letter = entry.latex or entry.name
     latex = f"{{{letter}}}_{{{number}}}" if "_" in letter or "^" in letter else f"{letter}_{{{number}}}"
-    return entry.model_copy(update={"name": f"{entry.name}{number}", "latex": latex})
+    offset = entry.offsets[number - 1] if number <= len(entry.offsets) else entry.offset
+    return entry.model_copy(update={"name": f"{entry.name}{number}", "latex": latex, "offset": offset, "offsets": ()})
+
+
+def _check_offsets(file: schema.FileEntry, instances: Mapping[str, tuple[Instance, ...]], faults: Faults) -> None:
+    """One for each limb of a template, and none elsewhere."""
+    for name, entry in file.inputs.entries.items():
+        if entry.offsets:
+            faults.add(
+                ("inputs", name, "offsets"), "of an input of its own", "allowed: in a template of limbs", "offset = 0"
+            )
+    for limb, group in instances.items():
+        for name, entry in file.limbs[limb].inputs.items():
+            if entry.offsets and len(entry.offsets) != len(group):
+                path = ("limbs", limb, "inputs", name, "offsets")
+                faults.add(path, f"{len(entry.offsets)} offsets of {len(group)} limbs", "allowed: one for each limb")
 
 
 def _broken(description: Description, instances: Mapping[str, tuple[Instance, ...]]) -> dict[str, frozenset[str]]:

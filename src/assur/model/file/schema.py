@@ -256,11 +256,12 @@ class PlatformEntry(Entry):
 
 
 class InputEntry(Entry):
-    """An actuated coordinate. Printed value = sign * joint value + offset."""
+    """An actuated coordinate. Printed value = sign * joint value + offset; `offsets`: one for each limb."""
 
     name: Name
     latex: str = ""
     offset: Value = ZERO[0]
+    offsets: tuple[Value, ...] = ()
     sign: Sense = 1
     stroke: Range | None = None
 
@@ -333,7 +334,7 @@ class WorkspaceEntry(Entry):
     sections: tuple[Value, ...] = ()
 
 
-ToleranceValue = Annotated[ToleranceEntry, BeforeValidator(bound_alone)]
+ToleranceValue = Annotated[ToleranceEntry, BeforeValidator(bound_alone, json_schema_input_type=Value | ToleranceEntry)]
 
 
 class Repeat(Entry):
