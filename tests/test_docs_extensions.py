@@ -97,6 +97,22 @@ def test_a_figure_is_drawn_once_until_a_source_changes(extension, tmp_path, monk
     assert json.loads((tmp_path / "build" / "gallery" / "fivebar" / "graph.json").read_text())["caption"] in first
 
 
+def test_every_kind_of_figure_is_there_for_a_task_and_its_command_draws_it(extension, monkeypatch):
+    from assur.figures.catalogue import ENTRIES
+
+    tasks = extension("tasks")
+    assert {*tasks.TASKS} == {entry.name for entry in ENTRIES}
+    monkeypatch.setattr(tasks.gallery, "places", lambda _, name, own: {figure: f"{name}/{figure}" for figure in own})
+    rows = re.findall(
+        r"\* - (.*)\n  - ```{image} (\w+)/(\w+)\n.*\n.*\n    ```\n  - `assur figures (\w+) --only (\w+)`",
+        tasks.markdown(None, "zeng2019", "three_rps", "parasitic"),
+    )
+    assert [row[0] for row in rows] == [*tasks.TASKS.values()]
+    assert all(row[1:3] == row[3:5] for row in rows)
+    assert {row[1] for row in rows if row[2] == "parasitic"} == {"three_rps"}
+    assert len([row for row in rows if row[1] == "three_rps"]) == 1
+
+
 def test_a_page_of_its_own_words_takes_one_figure(extension, tmp_path):
     whole = extension("gallery").markdown(tmp_path, "fivebar", "graph")
     picture = extension("made").fill("before <!-- made: figure fivebar graph --> after", tmp_path)

@@ -116,5 +116,13 @@ write(assur.load("{mechanism}"), "figures", ["{name}"])
 
 
 def _picture(mechanism: str, figure: dict[str, str], folder: Path) -> str:
-    place = f"../{folder.relative_to(folder.parents[2]).as_posix()}/{figure['name']}.png"
-    return f"![{figure['title']} of {mechanism}]({place})\n\n{figure['caption']}"
+    return f"![{figure['title']} of {mechanism}]({_place(folder, figure['name'])})\n\n{figure['caption']}"
+
+
+def places(root: Path, name: str, figures: tuple[str, ...]) -> dict[str, str]:
+    """Figure -> where its picture lies, as a page names it."""
+    return {item["name"]: _place(folder, item["name"]) for folder, item in _figures(root, name, figures)}
+
+
+def _place(folder: Path, figure: str) -> str:
+    return f"../{folder.relative_to(folder.parents[2]).as_posix()}/{figure}.png"

@@ -1,7 +1,7 @@
 """What the pages hold that is made at build time: a comment `<!-- made: NAME WORDS -->` is replaced by Markdown.
 
-`gallery`: the figures of a mechanism. `figure`: one of them. `notebook`: a notebook with its outputs. `packages`: every
-module and its idea. `layers`: the order of imports. `indices`: the table of indices.
+`gallery`: the figures of a mechanism. `tasks`: what each is for. `figure`: one of them. `notebook`: a notebook with its
+outputs. `packages`: every module and its idea. `layers`: the order of imports. `indices`: the table of indices.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ import gallery
 import index_table
 import notebook
 import packages
+import tasks
 from sphinx.application import Sphinx
 
 MAKERS: dict[str, Callable[..., str]] = {
     "gallery": gallery.markdown,
     "figure": gallery.picture,
     "notebook": notebook.markdown,
+    "tasks": tasks.markdown,
     "packages": packages.markdown,
     "layers": packages.layers,
     "indices": index_table.markdown,

@@ -7,6 +7,7 @@ What draws and writes stands above this module, and is looked up by its name whe
 from __future__ import annotations
 
 from collections.abc import Sequence
+from difflib import get_close_matches
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
@@ -177,6 +178,14 @@ class Mechanism(Mechanics):
         """
         import_module("assur.report.report").write_report(self, path, figures=figures)
         return Path(path)
+
+    if not TYPE_CHECKING:  # a type checker knows what there is
+
+        def __getattr__(self, name: str) -> Any:
+            """Of what there is not, the names that are near: notebooks show no suggestions of Python's own."""
+            near = [] if name.startswith("_") else get_close_matches(name, [*dir(type(self)), *vars(self)])
+            hint = f"; did you mean {' or '.join(near)}?" if near else ""
+            raise AttributeError(f"a mechanism has no attribute {name!r}{hint}")
 
     def __str__(self) -> str:
         """Its inputs, pose and dimensions as a table."""

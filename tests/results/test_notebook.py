@@ -39,6 +39,12 @@ def test_a_mechanism_prints_its_inputs_pose_and_dimensions_and_is_still_named_in
     assert repr(fivebar) == "<Mechanism fivebar: planar five-bar, 2-RRR with a common joint>"
 
 
+def test_an_attribute_that_there_is_not_is_told_with_those_that_are_near(fivebar):
+    with pytest.raises(AttributeError, match="no attribute 'invers'; did you mean inverse"):
+        fivebar.invers  # noqa: B018
+    assert not hasattr(fivebar, "_repr_png_")
+
+
 def test_a_notebook_shows_the_table_and_a_picture(fivebar):
     shown = fivebar._repr_html_()
     assert len(cells(shown)) == len(str(fivebar).splitlines()) - 1
@@ -80,6 +86,13 @@ ANSWERS = {
     "aspects": (lambda own: own.aspects("-+"), 1, lambda answer: answer.aspects[0].volume[0]),
     "workspace": (lambda own: own.workspace(resolution=8), 3, lambda answer: answer.volume),
     "errors": (lambda own: own.errors(POSE), 3, lambda answer: answer.sensitivity["g"][0]),
+    "mobility": (lambda own: own.mobility(own.home_values), 1, lambda answer: answer.gap),
+    "motion": (lambda own: own.instantaneous(own.home_values), 1, lambda answer: answer.measures["output"]),
+    "solution": (lambda own: own.inverse(POSE)[0], 5, lambda answer: answer.joints["A1"]),
+    "certificate": (lambda own: own.certified_inverse(POSE), 2, lambda answer: answer.solutions[0].pose.low[0]),
+    "stiffness": (lambda own: own.stiffness(POSE), 1, lambda answer: answer.translational[0][0, 0]),
+    "small motions": (lambda own: own.small_motions(POSE), 4, lambda answer: answer.poles[0].real),
+    "path": (lambda own: own.follow(own.home_values, poses=[20.0, 230.0]), 2, lambda answer: answer.shares[0]),
     "forces": (lambda own: own.forces([POSE], load=[0.0, 1.0, 0.0]), 1, lambda answer: answer.forces[0, 0]),
 }
 
@@ -95,7 +108,7 @@ def test_an_answer_is_a_table_printed_in_a_notebook_and_as_a_data_frame(fivebar,
     assert len(shown) == len(rows) >= least
     numbers = [value for value in rows[0].values() if isinstance(value, float)]
     assert numbers[0] == pytest.approx(float(first(answer)))
-    assert len(str(answer).splitlines()) > len(rows) or "per unit" in str(answer)
+    assert len(str(answer).splitlines()) > len(rows) or "per unit" in str(answer) or answer._title() == str(answer)
     assert "array(" not in str(answer)
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.excess import Excess
 from assur.kinematics.status import Status
 from assur.results.answers.position import OpenLoop
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ class Failure:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(Tabulated):
     """One solution of the direct or the inverse problem.
 
     Attributes:
@@ -59,3 +60,14 @@ class Solution:
     within_limits: bool | None = None
     excesses: tuple[Excess, ...] = ()
     open_loop: OpenLoop | None = None
+
+    def _title(self) -> str:
+        return f"solution {self.mode}, {self.status.name}, gap {self.residual:.2g}: joint values as lengths and in rad"
+
+    def _entries(self) -> Entries:
+        kinds = {"joint": self.joints, "factor": self.factors, "quantity": self.quantities}
+        return [
+            {"what": kind, "name": name, "value": float(value)}
+            for kind, values in kinds.items()
+            for name, value in values.items()
+        ]

@@ -13,6 +13,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, position
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.answers.excess import limits_at_border
+from assur.kinematics.border import drive_names
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_drives
@@ -30,6 +31,7 @@ from assur.results.answers.certified import (
     UndecidedPlace,
 )
 from assur.results.answers.position import KeptLimits
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 THERE = 1e-6
@@ -84,7 +86,7 @@ class Doubt:
 
 
 @dataclass(frozen=True, eq=False)
-class CertifiedSolutions:
+class CertifiedSolutions(Tabulated):
     """The proved answer to one direct or inverse problem, as far as it could be proved.
 
     Attributes:
@@ -110,6 +112,25 @@ class CertifiedSolutions:
 
     def __repr__(self) -> str:
         return f"<{self.problem} certificate of {self.record.name}: {self.headline}>"
+
+    def _title(self) -> str:
+        return f"{self.headline}, {self.problem} of {self.record.name}: bounds as lengths and in rad"
+
+    def _entries(self) -> Entries:
+        names = [*self.record.platform.pose, *drive_names(self.record)]
+        return [
+            {
+                "mode": item.mode,
+                **{
+                    f"{name} {side}": float(value)
+                    for side in ("low", "high")
+                    for name, value in zip(
+                        names, np.concatenate([getattr(item.pose, side), getattr(item.inputs, side)]), strict=True
+                    )
+                },
+            }
+            for item in self.solutions
+        ]
 
     def __len__(self) -> int:
         return len(self.solutions)

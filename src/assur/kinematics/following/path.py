@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
-from assur.kinematics.border import input_names, joint_names
+from assur.kinematics.border import drive_names, input_names, joint_names
 from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.ranks import SINGULAR
 from assur.kinematics.turns import periodic_inputs
@@ -18,6 +18,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics import rotations
 from assur.results.answers.path import NamedModes, PathAnswer, StoppedPath
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 ANOTHER = 1e-6
@@ -87,7 +88,7 @@ class Stop:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Path:
+class Path(Tabulated):
     """A path of one mechanism in one mode, from point to point.
 
     Attributes:
@@ -115,6 +116,20 @@ class Path:
 
     def __repr__(self) -> str:
         return f"<{self}>"
+
+    def _title(self) -> str:
+        return str(self)
+
+    def _entries(self) -> Entries:
+        record, least = self.record, {f"least, {name} held": value for name, value in self.smallest.items()}
+        names = ["share", *record.platform.pose, *drive_names(record)[: self.inputs.shape[1]], *least]
+        numbers = [
+            self.shares[:, None],
+            pose_at_border(record, self.poses),
+            inputs_at_border(record, self.inputs),
+            *(value[:, None] for value in least.values()),
+        ]
+        return [dict(zip(names, row, strict=True)) for row in np.concatenate(numbers, axis=1).tolist()]
 
     def __str__(self) -> str:
         head = f"path of {self.record.name} along {self.prescribed}, {len(self)} points"

@@ -23,6 +23,7 @@ from assur.machine.motion.joint_motion import pose_units
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, rate_names
 from assur.numerics import rotations
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 STEP = 2e-4
@@ -33,7 +34,7 @@ NEUTRAL = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class SmallMotions:
+class SmallMotions(Tabulated):
     """The equation about a pose, in SI units, per rate of the pose; NaN where there is none, as `answer` says.
 
     Attributes:
@@ -45,6 +46,12 @@ class SmallMotions:
     mass: FloatArray
     damping: FloatArray
     stiffness: FloatArray
+
+    def _title(self) -> str:
+        return str(self)
+
+    def _entries(self) -> Entries:
+        return [{"grows [1/s]": float(pole.real), "turns [rad/s]": float(pole.imag)} for pole in self.poles]
 
     @cached_property
     def poles(self) -> NDArray[np.complex128]:

@@ -24,6 +24,7 @@ from assur.machine.elasticity.strains import Strains, strains
 from assur.machine.elasticity.structure import structure
 from assur.machine.elasticity.vibrations import Vibrations, vibrations
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 RIGID = 1e-12
@@ -33,7 +34,7 @@ ABREAST = 256
 
 
 @dataclass(frozen=True, eq=False)
-class Stiffness:
+class Stiffness(Tabulated):
     """How the platform gives way at N poses, in SI units: displacement before rotation, force before moment.
 
     Axes are the base's. Where a status says so there are no numbers: NaN.
@@ -53,6 +54,18 @@ class Stiffness:
     compliance: FloatArray
     shear: bool
     rigid: bool
+
+    def _title(self) -> str:
+        return f"stiffness of {self.record.name} against forces, in N/m, ascending, and the direction of the least"
+
+    def _entries(self) -> Entries:
+        sizes, ways = self.translational
+        names = ("k1", "k2", "k3", "x of k1", "y of k1", "z of k1")
+        rows = np.concatenate([sizes, ways[:, 0]], axis=1).tolist()
+        return [
+            {**dict(zip(names, row, strict=True)), "rank": int(rank), "status": Status(int(code)).name}
+            for row, rank, code in zip(rows, self.rank, self.status, strict=True)
+        ]
 
     @cached_property
     def rank(self) -> NDArray[np.int64]:
