@@ -105,7 +105,7 @@ def test_every_kind_of_figure_is_there_for_a_task_and_its_command_draws_it(exten
     monkeypatch.setattr(tasks.gallery, "places", lambda _, name, own: {figure: f"{name}/{figure}" for figure in own})
     rows = re.findall(
         r"\* - (.*)\n  - ```{image} (\w+)/(\w+)\n.*\n.*\n    ```\n  - `assur figures (\w+) --only (\w+)`",
-        tasks.markdown(None, "zeng2019", "three_rps", "parasitic"),
+        tasks.markdown(None, "zeng2019", "parasitic=three_rps"),
     )
     assert [row[0] for row in rows] == [*tasks.TASKS.values()]
     assert all(row[1:3] == row[3:5] for row in rows)

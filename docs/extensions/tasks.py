@@ -34,13 +34,15 @@ TASKS = {
     "stiffness": "how it gives way, and which link does",
     "weakest": "a map of the least stiffness",
     "vibrations": "how it vibrates, and how fast",
+    "accuracy": "which tolerance moves the platform most",
+    "errors": "a map of the error of the pose",
 }
 """Figure -> what it is wanted for, in the order of a study."""
 
 
 def markdown(root: Path, mechanism: str, *others: str) -> str:
-    """A table of tasks; `others` name a further mechanism and the figures that are its own."""
-    own = {figure: others[0] if figure in others[1:] else mechanism for figure in TASKS}
+    """A table of tasks; `others` name the mechanisms of figures that this one lacks, as parasitic=three_rps."""
+    own = dict.fromkeys(TASKS, mechanism) | dict(item.split("=") for item in others)
     pictures: dict[str, str] = {}
     for name in dict.fromkeys(own.values()):
         pictures |= gallery.places(root, name, tuple(figure for figure, of in own.items() if of == name))

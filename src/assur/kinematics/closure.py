@@ -30,7 +30,6 @@ from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
 from assur.numerics.vectors import add, apply, cross, subtract, times
-from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
@@ -305,7 +304,7 @@ def gap_left(record: MechanismRecord, assembly: Assembly) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class AssemblyMobility(Tabulated):
+class AssemblyMobility:
     """Freedom of the joint graph at an assembly, by the rank of its closure Jacobian.
 
     `rank` (...) of the 6 v rows, `freedoms` = n - rank, `redundant` = 6 v - rank, and `gap` (...): the
@@ -316,13 +315,6 @@ class AssemblyMobility(Tabulated):
     freedoms: NDArray[np.int_]
     redundant: NDArray[np.int_]
     gap: FloatArray
-
-    def _title(self) -> str:
-        return "freedom of the joint graph by the rank of its closure"
-
-    def _entries(self) -> Entries:
-        columns = [np.ravel(column).tolist() for column in vars(self).values()]
-        return [dict(zip(vars(self), row, strict=True)) for row in zip(*columns, strict=True)]
 
 
 def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = RANK_GAP) -> AssemblyMobility:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.excess import Excess
 from assur.kinematics.status import Status
 from assur.results.answers.position import OpenLoop
-from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
@@ -31,7 +30,7 @@ class Failure:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution(Tabulated):
+class Solution:
     """One solution of the direct or the inverse problem.
 
     Attributes:
@@ -60,14 +59,3 @@ class Solution(Tabulated):
     within_limits: bool | None = None
     excesses: tuple[Excess, ...] = ()
     open_loop: OpenLoop | None = None
-
-    def _title(self) -> str:
-        return f"solution {self.mode}, {self.status.name}, gap {self.residual:.2g}: joint values as lengths and in rad"
-
-    def _entries(self) -> Entries:
-        kinds = {"joint": self.joints, "factor": self.factors, "quantity": self.quantities}
-        return [
-            {"what": kind, "name": name, "value": float(value)}
-            for kind, values in kinds.items()
-            for name, value in values.items()
-        ]

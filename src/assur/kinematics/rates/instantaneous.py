@@ -32,14 +32,13 @@ from assur.kinematics.rates.motions import (
     pose_units,
 )
 from assur.model.mechanism import MechanismRecord
-from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Instant(Tabulated):
+class Instant:
     """First-order motion at joint values (..., n).
 
     Attributes:
@@ -68,17 +67,6 @@ class Instant(Tabulated):
     closed: BoolArray
     motion: InstantaneousMotion
     no_rates: BoolArray
-
-    def _title(self) -> str:
-        return (
-            "first-order motion: measures of what is locked, freedoms, and which of Zlatanov's types it is singular of"
-        )
-
-    def _entries(self) -> Entries:
-        singular = {f"{name} singular": value for name, value in self.types.items()}
-        columns = {"closed": self.closed, **self.measures, "freedoms": self.ranks.freedoms, **singular}
-        rows = zip(*(np.ravel(column).tolist() for column in columns.values()), strict=True)
-        return [dict(zip(columns, row, strict=True)) for row in rows]
 
     @cached_property
     def types(self) -> Mapping[str, BoolArray]:
