@@ -66,6 +66,10 @@ UNLIKE = {
         "R[x] R[x] C[x]", "{P[y] R[z] R[z] | P[y] R[z] R[z]} R[y] R[y]",
     ],
     "a parallelogram on a crank beside slides": [CRANK, "C[x] R[x] R[x]", "C[z] R[z] R[z]"],
+    "hinges oblique, and two parallelograms across each other": [
+        "C[0,0.6,0.8] R[0,0.6,0.8] R[0,0.6,0.8]", "P[y] P(4R)[z] P(4R)[x]", "R[x] R[x] C[x]",
+    ],
+    "an inner loop across parallelograms": ["{P[x] R[z] R[z] | P[x] R[z] R[z]} R[x] R[x]", "P[y] P(4R)[x] P(4R)[y]"],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
 }  # fmt: skip
 APART = 1e-6

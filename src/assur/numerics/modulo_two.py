@@ -27,6 +27,26 @@ def independent(rows: BoolArray) -> list[int]:
     return answer
 
 
+def vanishing_sums(rows: BoolArray) -> list[list[int]]:
+    """Sets of rows (N, k) whose sum modulo 2 vanishes: one of each row that is a sum of rows before it.
+
+    >>> vanishing_sums(np.array([[True, True], [True, True], [False, False], [True, False]]))
+    [[0, 1], [2]]
+    """
+    basis: list[tuple[BoolArray, set[int]]] = []
+    answer = []
+    for number, row in enumerate(rows):
+        left, chosen = row.copy(), {number}
+        for known, own in basis:
+            if left[np.argmax(known)]:
+                left, chosen = left ^ known, chosen ^ own
+        if np.any(left):
+            basis.append((left, chosen))
+        else:
+            answer.append(sorted(chosen))
+    return answer
+
+
 def residues_of_sums(rows: BoolArray, width: int) -> BoolArray:
     """Of rows (N, k) that are sums of rows before them in the first columns what is left in the others (N, k - width).
 

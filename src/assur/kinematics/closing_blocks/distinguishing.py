@@ -35,7 +35,7 @@ from assur.kinematics.search import numbered
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.modulo_two import independent, residues_of_sums
+from assur.numerics.modulo_two import independent, residues_of_sums, vanishing_sums
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -108,25 +108,33 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
     solved = _solved(ordered, problem, _targets(ordered, known))
-    _, joined, apart = _compared(ordered, solved, known)
-    told, telling = bool(np.all(np.any(apart, axis=1))), len(joined)
-    known = (*known, *triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)), problem))
-    known = known if told else tuple(sorted(known, key=lambda sign: len(sign.joints)))
-    answers, joined, apart = _compared(ordered, solved, known)
-    if told:  # only what tells further solutions apart makes further names
-        apart[:, telling:] = False
+    compared = _compared(ordered, solved, known)
+    telling, told = len(compared[1]), bool(np.all(np.any(compared[2], axis=1)))
+    more = triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)), problem)
+    finer = [*known, *more]
+    signs, order = _named(ordered, problem, finer, _compared(ordered, solved, finer) if more else compared, telling)
+    if more and (not told or order[-1:] >= [telling]):
+        finer.sort(key=lambda sign: len(sign.joints))
+        signs, order = _named(ordered, problem, finer, _compared(ordered, solved, finer), len(finer))
+    return tuple(ModeSign(tuple(_in_file_order(own, record) for own in signs[place].factors)) for place in order)
+
+
+def _named(
+    record: MechanismRecord, problem: Problem, known: Sequence[Factor], compared: _Compared, telling: int
+) -> tuple[list[ModeSign], list[int]]:
+    """Products of factors, and the places of those that name modes; the first ones alone where these tell all apart."""
+    answers, joined, apart = compared
+    apart = np.where(np.arange(len(joined)) < telling, apart, False)
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
-    near = ScrewColumns(ordered, np.concatenate([assemblies_by_chance(ordered), *(own.values for own in answers)]))
+    near = ScrewColumns(record, np.concatenate([assemblies_by_chance(record), *(own.values for own in answers)]))
     last = [problem == "direct" and flat for flat in _flat_loops(known, joined, near)]
     order = [*_separating(apart.T, last)]
-    given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(ordered)]
+    given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(record)]
     merging = differing_at_folds(problem, signs, near, [*order, *given])
     listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
     order += _separating(namesakes(problem, signs, near, [*order, *given]).T, last)
-    return tuple(
-        ModeSign(tuple(_in_file_order(factor, record) for factor in signs[place].factors)) for place in sorted(order)
-    )
+    return signs, sorted(order)
 
 
 def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
@@ -169,12 +177,13 @@ class _Solutions:
         return np.asarray(products[first] != products[second])
 
 
-def _compared(
-    record: MechanismRecord, solved: Sequence[FloatArray], known: Sequence[Factor]
-) -> tuple[list[_Solutions], list[list[int]], NDArray[np.bool_]]:
+_Compared = tuple[list[_Solutions], list[list[int]], NDArray[np.bool_]]
+
+
+def _compared(record: MechanismRecord, solved: Sequence[FloatArray], known: Sequence[Factor]) -> _Compared:
     """The solutions of each problem, products of factors that name them, and which of these differ in each pair."""
     answers = [_Solutions.of(record, values, known) for values in solved]
-    joined = _joined_where_alike(np.concatenate([answer.alike for answer in answers]), len(known))
+    joined = vanishing_sums(np.concatenate([answer.alike for answer in answers]).T)
     return answers, joined, np.concatenate([answer.apart(joined) for answer in answers])
 
 
@@ -290,25 +299,6 @@ def _closed(
             *(np.split(array, np.cumsum(counts)[:-1]) for array in (closed.values, kept)), strict=True
         )
     ]
-
-
-def _joined_where_alike(differing: NDArray[np.bool_], count: int) -> list[list[int]]:
-    """Sets of signs whose product is the same wherever assemblies look alike: as many as are independent.
-
-    By elimination modulo 2: `differing` (P, s) are the signs that differ in a pair of such assemblies.
-    """
-    known: list[tuple[NDArray[np.bool_], set[int]]] = []
-    answer = []
-    for sign in range(count):
-        left, chosen = differing[:, sign].copy(), {sign}
-        for column, own in known:
-            if left[np.argmax(column)]:
-                left, chosen = left ^ column, chosen ^ own
-        if np.any(left):
-            known.append((left, chosen))
-        else:
-            answer.append(sorted(chosen))
-    return answer
 
 
 def _flat_loops(known: Sequence[Factor], joined: Sequence[Sequence[int]], screws: ScrewColumns) -> list[bool]:
