@@ -19,6 +19,18 @@ def test_the_second_end_gives_way_as_the_textbook_says(shear):
     np.testing.assert_allclose(own.stiffness[np.ix_(order, order)], held, rtol=1e-9, atol=1e-6)
 
 
+@pytest.mark.parametrize("shear", [True, False])
+def test_a_section_moves_as_the_end_of_a_shorter_beam_says(shear):
+    """The same wrench at the second end, carried to a section: what is before it is a beam by itself."""
+    own, wrench = beam(BOX, STEEL, 0.4, shear=shear), np.array([1.0, -2.0, 3.0, 4.0, -5.0, 6.0])
+    strain = own.parts.sum(axis=0) @ wrench
+    for along in (0.1, 0.25, 0.4):
+        carried = wrench + np.concatenate([np.cross([0.4 - along, 0.0, 0.0], wrench[3:]), np.zeros(3)])
+        expected = beam(BOX, STEEL, along, shear=shear).parts.sum(axis=0) @ carried
+        moved = own.displaced(np.array([along]))[0] @ strain
+        np.testing.assert_allclose(np.roll(moved, 3), expected, rtol=1e-9)
+
+
 def test_shear_areas_of_tubes_grow_into_those_of_bars_and_of_thin_rings():
     def factor(inner):
         return shear_areas(Profile("tube", "tube", (1.0, inner), 1.0, 1.0, 1.0, 1.0), 0.3)[0]

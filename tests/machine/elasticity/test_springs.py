@@ -14,9 +14,10 @@ from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.reactions import child_points, reactions
+from assur.machine.masses.link_masses import masses
 from assur.model.machine_data import Actuator, Gear, LinkData
 from bending import bending, by_multipliers, given, yielding
-from weighed import motion_of, place
+from weighed import motion_of, place, weighed
 
 WRENCH = np.array([3.0, -4.0, 5.0, 0.6, 0.7, -0.8])
 
@@ -104,6 +105,39 @@ def test_in_motion_gears_and_joints_that_yield_pass_what_newton_and_euler_say():
     for joint in passed.joints:
         rigid = np.concatenate([joint.force, joint.moment])
         np.testing.assert_allclose(bent[joint.joint][joint.unique], rigid[joint.unique], atol=1e-8 * size)
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "fivebar", "delta_4s"])
+def test_bodies_beside_bars_that_bend_pass_what_newton_and_euler_say(name):
+    """Centres anywhere, also beyond the ends of bars, in motion."""
+    bare = assur.load(name)
+    values, bodies = place(bare), weighed(bare).machine.links
+    record = yielding(bending(bare))
+    links = {
+        link: replace(data, mass=bodies[link].mass, centre=bodies[link].centre, inertia=bodies[link].inertia)
+        for link, data in record.machine.links.items()
+    }
+    answer = forces_at(machine_of(record, links=links), values, load_of(WRENCH), *motion_of(bare))
+    bent, passed = elastic_reactions(answer), reactions(answer)
+    size = max(np.abs([*joint.force, *joint.moment]).max() for joint in passed.joints)
+    for joint in passed.joints:
+        rigid = np.concatenate([joint.force, joint.moment])
+        np.testing.assert_allclose(bent[joint.joint][joint.unique], rigid[joint.unique], atol=1e-8 * size)
+
+
+def test_a_slender_body_on_a_bar_that_bends_vibrates_much_as_the_bar_that_weighs_so():
+    """One body for what is spread: the slowest, which swings the bars and bends them little, within 2 %."""
+    bare = assur.load("fivebar")
+    record, values = bending(bare), place(bare)
+    links = {
+        link: replace(data, mass=body.mass, centre=1e3 * body.centre, inertia=body.inertia)
+        for link, data in record.machine.links.items()
+        if (body := masses(record).bodies.get(link)) is not None
+    }
+    stated = machine_of(record, links=record.machine.links | links)
+    own, other = (stiffness_at(each, values).vibrations().frequencies[:2] for each in (record, stated))
+    np.testing.assert_allclose(other, own, rtol=0.02)
+    assert not np.allclose(other, own, rtol=1e-9)
 
 
 def test_shares_of_joints_are_by_joint_and_whole():

@@ -46,7 +46,7 @@ class Beam:
         return np.asarray(symmetric * scale * scale[:, None])
 
     def displaced(self, places: FloatArray) -> FloatArray:
-        """Displacement, and turn about the axis (P, 4, 6) at places (P,) from the first end, per strain, it held.
+        """Displacement, and rotation (P, 6, 6) of the section at places (P,) from the first end, per strain, it held.
 
         The shape is that of a beam that bears loads at its ends alone.
         """
@@ -54,22 +54,24 @@ class Beam:
             return self.slender.displaced(places)
         s, length = places, self.length
         if length == 0.0:
-            return np.zeros((len(s), 4, 6))
+            return np.zeros((len(s), 6, 6))
         _, torsion, axial, shear = self.parts
         bend_y, bend_z = self.parts[0, 2, 2] / length, self.parts[0, 1, 1] / length  # 1 / (E I)
-        shape = np.zeros((len(s), 4, 6))
+        shape = np.zeros((len(s), 6, 6))
         shape[:, 0, 3] = s * axial[3, 3] / length
         shape[:, 1, 4] = (length * s**2 / 2 - s**3 / 6) * bend_y + s * shear[4, 4] / length
         shape[:, 1, 2] = s**2 / 2 * bend_y
         shape[:, 2, 5] = (length * s**2 / 2 - s**3 / 6) * bend_z + s * shear[5, 5] / length
         shape[:, 2, 1] = -(s**2) / 2 * bend_z
         shape[:, 3, 0] = s * torsion[0, 0] / length
+        shape[:, 4, 1], shape[:, 4, 5] = s * bend_z, -(length * s - s**2 / 2) * bend_z
+        shape[:, 5, 2], shape[:, 5, 4] = s * bend_y, (length * s - s**2 / 2) * bend_y
         return np.asarray(shape @ self.stiffness)
 
     def carried(self, places: FloatArray) -> FloatArray:
-        """The same (P, 4, 12) per twist of the first end and strain: what moves with the first end, and the strain."""
-        moved = np.zeros((len(places), 4, 12))
-        moved[:, 0, 3] = moved[:, 1, 4] = moved[:, 2, 5] = moved[:, 3, 0] = 1.0
+        """The same (P, 6, 12) per twist of the first end and strain: what moves with the first end, and the strain."""
+        moved = np.zeros((len(places), 6, 12))
+        moved[:, range(6), [3, 4, 5, 0, 1, 2]] = 1.0
         moved[:, 1, 2], moved[:, 2, 1] = places, -places
         moved[..., 6:] = self.displaced(places)
         return moved
@@ -142,7 +144,7 @@ def consistent_mass(own: Beam, per_metre: float, polar: float) -> FloatArray:
         polar: kg m2 of a metre about the beam's axis; sections do not resist tilting, as of slender bars.
     """
     places, weights = _gauss(own.length)
-    moved = own.carried(places)
+    moved = own.carried(places)[:, :4]
     sizes = np.array([per_metre, per_metre, per_metre, polar])
     return np.asarray(np.einsum("p,pai,a,paj->ij", weights, moved, sizes, moved))
 
@@ -153,7 +155,7 @@ def consistent_load(own: Beam) -> FloatArray:
     Loads work on the twist of the first end, and on the strain.
     """
     places, weights = _gauss(own.length)
-    moved = own.carried(places)
+    moved = own.carried(places)[:, :4]
     return np.stack([np.einsum("p,pai->ia", weights * grown, moved) for grown in (np.ones_like(places), places)])
 
 

@@ -16,7 +16,14 @@ from numpy.typing import NDArray
 from assur.machine.elasticity.beams import consistent_load
 from assur.machine.elasticity.strains import Strains, strains
 from assur.machine.elasticity.structure import ElasticStructure, structure
-from assur.machine.elasticity.structure_masses import beam_motion, body_motion, centre_of, rigid_bodies, tied_to
+from assur.machine.elasticity.structure_masses import (
+    beam_motion,
+    body_motion,
+    body_on_beam,
+    centre_of,
+    rigid_bodies,
+    section_beside,
+)
 from assur.machine.forces.actuator_forces import ActuatorForces
 from assur.machine.forces.reactions import OPEN, RANK, about_origin, child_points, joint_wrenches
 from assur.machine.masses.link_masses import bar_weights, masses
@@ -69,6 +76,9 @@ def elastic_reactions(answer: ActuatorForces, *, shear: bool = True) -> Mapping[
     turning = _turning(own, answer.joint_accelerations[0])
     work = state.platform[0].T @ np.concatenate([answer.load.force, answer.load.moment])
     work[own.coordinates] -= turning * state.scales
+    for link in on_bodies.keys() & own.skeletons.keys():
+        place, _ = section_beside(own, link, bodies[link])
+        on_beams[place] = on_beams[place] + body_on_beam(state, link, bodies[link]).T @ on_bodies.pop(link)
     for place, load in enumerate(on_beams):
         work += beam_motion(state, place).T @ load
     for link, wrench in on_bodies.items():
@@ -76,7 +86,7 @@ def elastic_reactions(answer: ActuatorForces, *, shear: bool = True) -> Mapping[
     moved = state.displaced(work[None, :, None])[0, :, 0]
     borne = _borne_by_beams(state, moved, on_beams)
     for link, wrench in on_bodies.items():
-        borne[tied_to(own, link, bodies[link])] += _about(wrench[3:], wrench[:3], centre_of(state, link, bodies[link]))
+        borne[own.bodies.index((link, 0))] += _about(wrench[3:], wrench[:3], centre_of(state, link, bodies[link]))
     borne[own.platform] += _about(answer.load.force, answer.load.moment, state.point[0])
     stretched = state.scales * moved[own.coordinates]
     return _passed(state, answer.values[:1], borne, own.springs.efforts(stretched) - turning)

@@ -25,15 +25,18 @@ def rigid_bodies(structure: ElasticStructure, known: Masses) -> dict[str, RigidB
     return bodies
 
 
-def tied_to(structure: ElasticStructure, link: str, body: RigidBody) -> int:
-    """The body of the structure that a rigid body of a link is on: of a link that bends the node nearest to its centre.
+def section_beside(structure: ElasticStructure, link: str, body: RigidBody) -> tuple[int, float]:
+    """Which beam of a link that bends a rigid body of it is on, and how far in m from its first end: the nearest place.
 
     `body` has its centre in the link's frame, as masses have.
     """
-    node = 0
-    if link in structure.skeletons:
-        node = int(np.argmin(np.linalg.norm(structure.skeletons[link].nodes - body.centre, axis=1)))
-    return structure.bodies.index((link, node))
+    nearest = (np.inf, 0, 0.0)
+    for place, beam in enumerate(structure.beams):
+        if beam.link == link:
+            along = float(np.clip((body.centre - beam.first) @ beam.axes[:, 0], 0.0, beam.beam.length))
+            away = float(np.linalg.norm(body.centre - beam.first - along * beam.axes[:, 0]))
+            nearest = min(nearest, (away, place, along))
+    return nearest[1:]
 
 
 def centre_of(state: Strains, link: str, body: RigidBody) -> FloatArray:
@@ -43,9 +46,26 @@ def centre_of(state: Strains, link: str, body: RigidBody) -> FloatArray:
 
 
 def body_motion(state: Strains, link: str, body: RigidBody) -> FloatArray:
-    """Angular velocity, and velocity of its centre (6, U), of a rigid body of a link, at the first configuration."""
-    twist = state.twists(tied_to(state.structure, link, body))[0]
+    """Angular velocity, and velocity of its centre (6, U), of a rigid body of a link, at the first configuration.
+
+    That of a link that bends moves with the section that is nearest to its centre.
+    """
+    own = state.structure
+    if link in own.skeletons:
+        place, _ = section_beside(own, link, body)
+        return body_on_beam(state, link, body) @ beam_motion(state, place)
+    twist = state.twists(own.bodies.index((link, 0)))[0]
     return _moved(twist, centre_of(state, link, body) - state.point[0], state.length)
+
+
+def body_on_beam(state: Strains, link: str, body: RigidBody) -> FloatArray:
+    """The same (6, 12) per twist of the first end of its beam in the beam's axes, and the beam's strain."""
+    place, along = section_beside(state.structure, link, body)
+    beam, axes = state.structure.beams[place].beam, state.beam_axes[0, place]
+    section = beam.carried(np.array([along]))[0]
+    turned, shifted = axes @ section[3:], axes @ section[:3]
+    lever = centre_of(state, link, body) - state.beam_ends[0, place] + (beam.length - along) * axes[:, 0]
+    return np.concatenate([turned, shifted + np.cross(turned, lever, axisa=0, axisb=0, axisc=0)])
 
 
 def beam_motion(state: Strains, place: int) -> FloatArray:
