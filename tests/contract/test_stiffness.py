@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import eigvalsh
 
 from assur.kinematics.pose import platform_frame
 from assur.kinematics.status import Status
@@ -108,6 +109,20 @@ def test_what_a_stiffer_link_gains_lies_between_bounds_by_its_share(bent):
     most, least = 1.0 - shares.links[link] * (1.0 - 1.0 / times), 1.0 / (1.0 + (times - 1.0) * after.links[link])
     assert least - 1e-9 <= after.energy / shares.energy <= most + 1e-9
     assert after.energy < shares.energy
+
+
+def test_rigid_links_vibrate_on_their_actuators_and_those_that_bend_more_slowly(mechanism):
+    """By the mass matrix of the pose's rates and the inputs' springs; a constraint raises each frequency (Rayleigh)."""
+    bent, values = bending(mechanism), place(mechanism)
+    links = {name: replace(data, rigid=True) for name, data in bent.machine.links.items()}
+    record = replace(bent, machine=replace(bent.machine, links=links))
+    moving = forces_at(record, values, load_of(None))
+    rates = moving.motion.drives @ moving.motion.of_pose[0]
+    springs = [record.machine.actuators[record.coordinate_label(item.coordinate)].stiffness for item in record.drives]
+    squares = eigvalsh(rates.T @ np.diag(springs) @ rates, moving.mass_matrix[0])
+    own = stiffness_at(record, values).vibrations().frequencies
+    np.testing.assert_allclose(own, np.sqrt(squares) / (2.0 * np.pi), rtol=1e-8)
+    assert np.all(stiffness_at(bent, values).vibrations().frequencies[: len(own)] <= own * (1.0 + 1e-9))
 
 
 def test_as_links_stiffen_only_the_actuators_are_left(mechanism):

@@ -10,24 +10,10 @@ from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.elasticity.strains import strains
 from assur.machine.elasticity.structure import structure
 from assur.machine.elasticity.vibrations import vibrations
-from assur.machine.forces.actuator_forces import forces_at
-from assur.machine.forces.loads import load_of
 from bending import bending
 from weighed import place
 
 POSE = [-15.4714, 9.6849, 456.3315]
-
-
-def test_stiff_links_vibrate_on_their_actuators_alone():
-    """By the mass matrix of the pose's rates, and the stiffness of the inputs through the inverse velocity relation."""
-    record = assur.load("zeng2019")
-    rigid = {name: replace(data, rigid=True) for name, data in record.machine.links.items()}
-    record = replace(record, machine=replace(record.machine, links=rigid))
-    own = record.stiffness(POSE)
-    moving = forces_at(record, own.values, load_of(None))
-    rates = moving.motion.drives @ moving.motion.of_pose[0]
-    squares = np.linalg.eigvals(np.linalg.solve(moving.mass_matrix[0], 1e7 * rates.T @ rates)).real
-    np.testing.assert_allclose(own.vibrations().frequencies, np.sqrt(np.sort(squares)) / (2 * np.pi), rtol=1e-9)
 
 
 def test_soft_actuators_and_stiff_bars_are_the_same_as_rigid_bars():
