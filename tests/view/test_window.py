@@ -254,14 +254,30 @@ def test_forces_are_shown_where_the_mechanism_rests_and_hidden_while_it_moves(wi
     _wait(lambda: window.settled > 1)
     _press(window.overlays.forces, True)
     _wait(lambda: "weight of the platform: 4.69 N" in window.overlays.told.content)  # told after they are drawn
-    assert len(window.stage._forces) == 2
+    assert len(window.stage._at_rest) == 2
     before = window.overlays.told.content
     _press(window._inputs[0], 120.0)
-    _wait(lambda: window.settled > 0 and window.overlays.told.content != before and len(window.stage._forces) == 2)
+    _wait(lambda: window.settled > 0 and window.overlays.told.content != before and len(window.stage._at_rest) == 2)
     assert all(node.opacity for node in window.stage._solids)
     _press(window.overlays.forces, False)
-    _wait(lambda: window.stage._forces == [])
+    _wait(lambda: window.stage._at_rest == [])
     assert not any(node.opacity for node in window.stage._solids)
+
+
+def test_stiffness_and_the_slowest_vibration_are_shown_where_the_mechanism_rests(window):
+    _wait(lambda: window.settled > 1)
+    _press(window.overlays.stiffness, True)
+    _wait(lambda: "stiffness here: " in window.overlays.told.content)
+    assert len(window.stage._at_rest) == 1
+    _press(window.overlays.vibration, True)
+    _wait(lambda: "vibration here: " in window.overlays.told.content)
+    assert len(window.stage._at_rest) == 2
+    before = window.overlays.told.content
+    _press(window._inputs[0], 120.0)
+    _wait(lambda: window.settled > 0 and window.overlays.told.content != before and len(window.stage._at_rest) == 2)
+    _press(window.overlays.stiffness, False)
+    _press(window.overlays.vibration, False)
+    _wait(lambda: window.stage._at_rest == [] and not window.overlays.told.visible)
 
 
 def _endless(ticks):

@@ -13,6 +13,7 @@ from typing import Any
 
 from assur.model.mechanism import MechanismRecord
 from assur.page.force_layers import force_layers
+from assur.page.stiffness_layers import stiffness_layers
 from assur.scene.layers import Layer, layers, layers_note, region, section_layer
 from assur.view.dials import Dial
 from assur.view.host import Host
@@ -21,6 +22,13 @@ from assur.workspace.region import Workspace
 COMPUTE, CANCEL = "compute workspace and singular surfaces", "cancel"
 IN_SPACE = 3
 """Coordinates of a workspace that has sections with an area."""
+
+AT_REST = {
+    "forces at rest": "what joints pass and actuators exert under gravity, here",
+    "stiffness": "how the platform gives way under a force in any direction, here; not to scale",
+    "slowest vibration": "how links bend in it at its largest, thicker where they store more energy, here",
+}
+"""Boxes of what belongs to the configuration that is shown, with their hints."""
 
 SMALL = '<small style="display:block;padding:0 8px">{}</small>'
 LAST = 1e12
@@ -32,7 +40,7 @@ class CancelledError(Exception):
 
 
 class Overlays:
-    """A button, boxes for forces and for each layer that was found, the height of a section, notes on what is seen."""
+    """A button, boxes for forces, stiffness and each layer that was found, the height of a section, notes on what is seen."""
 
     def __init__(self, window: Host) -> None:
         self.window = window
@@ -43,12 +51,13 @@ class Overlays:
             self.button = window.gui.add_button(COMPUTE)
             self.progress = window.gui.add_progress_bar(0.0, visible=False)
             self.note = window.gui.add_html("", visible=False, order=LAST)
-            self.forces = window.gui.add_checkbox(
-                "forces at rest", initial_value=False, hint="what joints pass and actuators exert under gravity, here"
+            self.forces, self.stiffness, self.vibration = (
+                window.gui.add_checkbox(label, initial_value=False, hint=hint) for label, hint in AT_REST.items()
             )
             self.told = window.gui.add_html("", visible=False)
         self.button.on_click(lambda _: self._pressed())
-        self.forces.on_update(lambda _: window.worker.ask("forces", self.show_forces))
+        for box in (self.forces, self.stiffness, self.vibration):
+            box.on_update(lambda _: window.worker.ask("at rest", self.show_at_rest))
 
     def compute(self) -> None:
         """Find every layer of the working mode that is shown."""
@@ -72,16 +81,23 @@ class Overlays:
         else:  # by the worker, which changes dimensions too
             self.window.worker.ask("layers", lambda: self._show(request, snapshot.record, workspace, made))
 
-    def show_forces(self) -> None:
-        """Arrows where the mechanism stands, if they are asked for; what they are, or why there are none."""
+    def show_at_rest(self) -> None:
+        """Forces, stiffness, vibration where the mechanism stands, if asked for; what they are, or why there are none."""
         snapshot = self.window.snapshot
-        made = force_layers(snapshot.record, snapshot.values, "here") if self.forces.value else ()
-        self.window.stage.forces(made)
-        lines = [f'<span style="color:{layer.colour}">{html.escape(layer.label)}</span>' for layer in made]
-        self.told.visible = bool(self.forces.value)
-        self.told.content = SMALL.format(
-            "<br>".join(lines) or "no masses are stated, or nothing holds the platform here"
-        )
+        made: list[Layer] = []
+        lines: list[str] = []
+        if self.forces.value:
+            made += force_layers(snapshot.record, snapshot.values, "here")
+            lines += [] if made else ["no masses are stated, or nothing holds the platform here"]
+        if self.stiffness.value or self.vibration.value:
+            whole = stiffness_layers(snapshot.record, snapshot.values, "here")
+            own = [*(whole[:1] if self.stiffness.value else ()), *(whole[1:2] if self.vibration.value else ())]
+            made += own
+            lines += [] if own else ["no stiffness or no masses are stated, or nothing holds the platform here"]
+        self.window.stage.at_rest(made)
+        lines += [f'<span style="color:{layer.colour}">{html.escape(layer.label)}</span>' for layer in made]
+        self.told.visible = bool(lines)
+        self.told.content = SMALL.format("<br>".join(lines))
 
     def clear(self) -> None:
         """Forget the layers, and what is being computed."""

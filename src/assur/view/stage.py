@@ -51,7 +51,7 @@ class Stage:
         self._letters: list[Any] = []
         self._section: Any = None
         self._solids: list[Any] = []
-        self._forces: list[Any] = []
+        self._at_rest: list[Any] = []
         self.scene.set_up_direction("+z")
         self._light()
         server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
@@ -145,11 +145,11 @@ class Stage:
             self._section.remove()
         self._section = None if layer is None else self._layer("section", layer, visible=True)
 
-    def forces(self, layers: Sequence[Layer]) -> None:
-        """Arrows of forces in the place of the last ones, seen through the links; or none."""
-        for node in self._forces:
+    def at_rest(self, layers: Sequence[Layer]) -> None:
+        """Forces, stiffness and vibration in the place of the last ones, seen through the links; or none."""
+        for node in self._at_rest:
             node.remove()
-        self._forces = [self._layer(f"force{k}", layer, visible=True) for k, layer in enumerate(layers)]
+        self._at_rest = [self._layer(f"rest{k}", layer, visible=True) for k, layer in enumerate(layers)]
         for node in self._solids:
             node.opacity = THROUGH if layers else None
 
@@ -192,7 +192,7 @@ class Stage:
             node.remove()
         self.section(None)
         self._solids = []
-        self.forces(())
+        self.at_rest(())
         self._ghosts, self._layers, self._letters = [], [], []
         self._frames = {}
 

@@ -201,7 +201,7 @@ class Window:
         """Everything that follows at once from what is shown."""
         snapshot = self.snapshot
         self.stage.move(snapshot.record, snapshot.values)
-        self.stage.forces(())  # they were of where it stood
+        self.stage.at_rest(())  # they were of where it stood
         with self.served.viser.atomic():
             self._set("Inputs", self._inputs, dials.inputs(self.original), snapshot.inputs)
             coordinates = dials.read(snapshot.record, snapshot.values)
@@ -237,7 +237,7 @@ class Window:
             factor = closest_factor(self.snapshot, self.postures["inverse"])
             self.more = (factor,) if factor else ()
             self.keeper.refresh()
-            self.overlays.show_forces()
+            self.overlays.show_at_rest()
         elif self.settled == 1:
             distance = clearance(self.snapshot, self.postures["inverse"])
             self.more = (*self.more, distance) if distance else self.more
