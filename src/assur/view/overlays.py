@@ -40,7 +40,7 @@ class CancelledError(Exception):
 
 
 class Overlays:
-    """A button, boxes for forces, stiffness and each layer that was found, the height of a section, notes on what is seen."""
+    """A button, boxes for what is at rest and for each layer, the height of a section, notes on what is seen."""
 
     def __init__(self, window: Host) -> None:
         self.window = window
@@ -82,7 +82,7 @@ class Overlays:
             self.window.worker.ask("layers", lambda: self._show(request, snapshot.record, workspace, made))
 
     def show_at_rest(self) -> None:
-        """Forces, stiffness, vibration where the mechanism stands, if asked for; what they are, or why there are none."""
+        """What is asked for of forces, stiffness, vibration where the mechanism stands; or why there is none."""
         snapshot = self.window.snapshot
         made: list[Layer] = []
         lines: list[str] = []
