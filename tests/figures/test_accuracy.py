@@ -7,9 +7,11 @@ import pytest
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.accuracy import errors_drawn
 from assur.figures.context import Context
-from assur.machine.accuracy.error_maps import WORST
+from assur.machine.accuracy.error_maps import SQUARES, TURNED, WORST, error_maps
 from assur.model.machine_data import Tolerance
+from assur.workspace.region import workspace
 
 OFF = {"l1": Tolerance(0.05, 0.02), "rod1.l2": Tolerance(0.03, 0.01), "theta1": Tolerance(1e-4, 3e-5)}
 
@@ -37,7 +39,16 @@ def test_the_map_is_that_of_the_workspace(toleranced):
     data = figures.drawing(toleranced.record, "errors", toleranced).data
     values = np.array(data["maps"][WORST]["values"], dtype=float)
     assert np.nanmin(values) > 0.0
+    assert TURNED in data["maps"]
     assert "largest displacement" in figures.spec(toleranced.record, "errors", toleranced).caption
+
+
+def test_a_platform_that_never_turns_has_no_map_of_rotations():
+    record = assur.load("tripteron")
+    record = replace(record, machine=replace(record.machine, tolerances={"q1": Tolerance(0.1, 0.03)}))
+    region = workspace(record, resolution=8)
+    maps = error_maps(record, region, ["x", "z"], nodes=4)
+    assert list(errors_drawn(Context(record, region), maps).data["maps"]) == [WORST, SQUARES]
 
 
 def test_without_tolerances_there_is_none():

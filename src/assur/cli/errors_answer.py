@@ -133,8 +133,10 @@ def _sensitivities(answer: ErrorsAnswer) -> Iterable[RenderableType]:
     yield table(("error of one", "in", *_columns(answer)), rows, left=("error of one", "in"))
     if answer.self_stress:
         yield "* does not assemble alone: a stress that balances itself bears it, in the joints"
+        alike: dict[tuple[str, ...], list[str]] = {}
         for name, stress in answer.self_stress.items():
-            yield f"  {name}: {', '.join(stress)}"
+            alike.setdefault(tuple(stress), []).append(name)
+        yield from (f"  {', '.join(names)}: {', '.join(joints)}" for joints, names in alike.items())
         settled = len(answer.elastic)
         if settled:
             yield f"  their numbers are where links that bend by their profiles settle ({settled} of them)"

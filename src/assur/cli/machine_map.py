@@ -25,9 +25,9 @@ def _forces_drawn(context: Context, maps: IndexMaps) -> Drawing:
 
 
 def _errors_drawn(context: Context, maps: IndexMaps) -> Drawing:
-    from assur.figures.index_maps import drawn
+    from assur.figures.accuracy import errors_drawn
 
-    return drawn(context, maps, by_decades=True)
+    return errors_drawn(context, maps)
 
 
 def _stiffness_drawn(context: Context, maps: IndexMaps) -> Drawing:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,7 +16,7 @@ from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
-from assur.machine.accuracy.error_maps import error_maps, toleranced
+from assur.machine.accuracy.error_maps import TURNED, error_maps, toleranced
 from assur.machine.accuracy.pose_errors import PoseErrors, pose_errors_at
 from assur.workspace.index_maps import IndexMaps
 
@@ -104,6 +106,14 @@ def _maps(context: Context) -> IndexMaps:
     )
 
 
+def errors_drawn(context: Context, maps: IndexMaps) -> Drawing:
+    """Maps of errors, colours by decades; that of a rotation is left out where there is none."""
+    own = {
+        name: item for name, item in maps.maps.items() if name != TURNED or np.nanmax(item.values, initial=0.0) > 0.0
+    }
+    return drawn(context, replace(maps, maps=own), by_decades=True)
+
+
 def _map_caption(context: Context) -> str:
     told = "; ".join(f"${item.symbol}$: {item.meaning}" for item in _maps(context).maps.values())
     return (
@@ -118,5 +128,5 @@ ERRORS = FigureKind(
     "Errors over one plane",
     lambda context: _untold(context) or no_workspace(context),
     _map_caption,
-    lambda context: drawn(context, _maps(context), by_decades=True),
+    lambda context: errors_drawn(context, _maps(context)),
 )

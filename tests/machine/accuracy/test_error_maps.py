@@ -42,6 +42,12 @@ def test_what_does_not_assemble_alone_has_the_numbers_of_links_that_bend():
     assert maps[WORST][1] == pytest.approx(0.1 * np.linalg.norm(own[:3]), rel=1e-6)
 
 
+def test_a_platform_that_never_turns_has_no_rounding_for_a_rotation():
+    record = toleranced("zeng2019", {"l2": Tolerance(0.05, 0.02), "l4": Tolerance(0.05, 0.02)})
+    maps = error_maps(record, workspace(record, resolution=6), ["x"], {"y": 0.0, "z": 400.0}, nodes=3)
+    assert np.nanmax(maps[TURNED]) == 0.0 < np.nanmin(maps[WORST])
+
+
 def test_no_tolerances_are_told():
     record = assur.load("fivebar")
     with pytest.raises(UsageError, match="fivebar states no tolerances"):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.status import Status
 from assur.machine.accuracy.farthest import farthest
@@ -19,6 +20,8 @@ from assur.workspace.measured_maps import ChosenNodes, NodeMeasure, measured_map
 from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
+ROUNDED = 1e-9
+"""Share of the largest displacement, over the mechanism's size, below which a rotation is rounding."""
 WORST, SQUARES, TURNED = "worst_displacement", "root_sum_square", "worst_rotation"
 
 
@@ -80,6 +83,8 @@ def _measured(
         if own.status == Status.regular:
             rows[place] = [own.sensitivity[name] * bound for name, bound in own.bounds.items()]
     shifts, turns = rows[..., :3], rows[..., 3:]
+    least = ROUNDED * np.max(np.abs(shifts), axis=(1, 2), initial=0.0) / characteristic_length(record)
+    turns = np.where(np.abs(turns) < least[:, None, None], 0.0, turns)
     squares = np.sqrt(np.sum(shifts**2, axis=(1, 2)))
     return status, {
         WORST: NodeMeasure(r"e_{\max}", "largest displacement within the tolerances", record.unit, farthest(shifts)),
