@@ -14,6 +14,7 @@ from assur.machine.elasticity.stiffness import stiffness_at
 from assur.machine.forces.actuator_forces import forces_at
 from assur.machine.forces.loads import load_of
 from assur.machine.forces.reactions import child_points, reactions
+from assur.machine.masses.bars import joint_points
 from assur.machine.masses.link_masses import masses
 from assur.model.machine_data import Actuator, Gear, LinkData
 from bending import bending, by_multipliers, given, yielding
@@ -75,6 +76,41 @@ def test_a_bars_compliance_given_by_hand_vibrates_as_the_bar():
     own = stiffness_at(record, values, shear=False).vibrations().frequencies
     other = stiffness_at(machine_of(by_hand, links=weighed), values, shear=False).vibrations().frequencies
     np.testing.assert_allclose(other, own, rtol=1e-9)
+
+
+def test_a_compliance_seen_from_either_end_is_one():
+    """At the second joint while the first is held, and the other way round; the file's order where no bars are said."""
+    bare = assur.load("fivebar")
+    points, (first, second) = joint_points(bare, "rod1"), joint_points(bare, "rod1")
+    lever = METRES[bare.unit] * (points[first] - points[second])
+    back = np.block([[np.eye(3), np.cross(np.eye(3), lever, axis=0)], [np.zeros((3, 3)), np.eye(3)]])
+    roots = np.repeat([1e-4, 1e-3], 3)[:, None] * np.random.default_rng(0).normal(size=(6, 6))
+    record, values = bending(bare), place(bare)
+    answers = [
+        stiffness_at(machine_of(record, links={**record.machine.links, "rod1": own}), values).compliance
+        for own in (
+            LinkData(compliance=roots @ roots.T),
+            LinkData(compliance=roots @ roots.T, bars=((first, second),)),
+            LinkData(compliance=back @ roots @ roots.T @ back.T, bars=((second, first),)),
+        )
+    ]
+    for other in answers[1:]:
+        np.testing.assert_allclose(other, answers[0], rtol=1e-9, atol=1e-12 * np.abs(answers[0]).max())
+
+
+def test_a_link_without_length_gives_way_as_the_joint_before_it():
+    bare = assur.load("three_rps")
+    record, values = bending(bare), place(bare)
+    roots = np.repeat([1e-4, 1e-3], 3)[:, None] * np.random.default_rng(0).normal(size=(6, 6))
+    link = next(name for name, data in record.machine.links.items() if data.profile is None and name != bare.base)
+    before, after = joint_points(bare, link)
+    assert (bare.joints[before].child, bare.joints[after].parent) == (link, link)
+    np.testing.assert_array_equal(*joint_points(bare, link).values())
+    soft = machine_of(record, links={**record.machine.links, link: LinkData(compliance=roots @ roots.T)})
+    other = machine_of(record, compliances={before: roots @ roots.T})
+    own, same = (stiffness_at(each, values).compliance[0] for each in (soft, other))
+    np.testing.assert_allclose(own, same, rtol=1e-8, atol=1e-11 * np.abs(own).max())
+    assert not np.allclose(own, stiffness_at(record, values).compliance[0], rtol=1e-3)
 
 
 @pytest.mark.parametrize("rigid", [False, True])
