@@ -31,13 +31,14 @@ def stiffness(
     """Stiffness of the platform at a pose while the actuators hold their inputs.
 
     Matrix structural analysis of the whole joint graph: links with a profile
-    are Timoshenko beams, the others rigid; actuators are springs, passive
-    joints leave free what they leave free, and what is held twice needs no
-    care. Compliance and stiffness at the platform's point, the stiffness along
-    its principal directions where no moment is applied, what would remain if
-    only the actuators gave way, where the strain energy is, and the slowest
-    natural vibrations. All is in SI units, in the base's axes. Exit code 2:
-    what is needed is not in the file. 4: the mode does not reach the pose.
+    are Timoshenko beams, links and joints with a compliance give way by it,
+    the others are rigid; actuators and gears are springs, passive joints leave
+    free what they leave free, and what is held twice needs no care. Compliance
+    and stiffness at the platform's point, the stiffness along its principal
+    directions where no moment is applied, what would remain if only the
+    actuators gave way, where the strain energy is, and the slowest natural
+    vibrations. All is in SI units, in the base's axes. Exit code 2: what is
+    needed is not in the file. 4: the mode does not reach the pose.
     With --map: the least stiffness and its direction at the nodes of a grid
     through the workspace, and the least that the actuators alone would leave.
 

@@ -17,8 +17,9 @@ from assur.results.typeset_text import short
 PICTURES = ("stiffness", "weakest", "vibrations")
 SAID = (
     "How the platform gives way in the configuration that is drawn while the actuators hold their inputs. Links with a"
-    " profile are Timoshenko’s beams, the others rigid, actuators are springs; profiles, materials and springs are"
-    " those of the mechanism’s file, which says where they come from."
+    " profile are Timoshenko’s beams, those with a compliance give way by it, the others are rigid; actuators and gears"
+    " are springs, joints hold but for their compliance. All of these numbers are those of the mechanism’s file, which"
+    " says where they come from."
 )
 
 
@@ -56,7 +57,7 @@ def _micro(value: float) -> str:
 
 
 def _shared(shares: EnergyShares) -> Iterator[Table]:
-    """By links and actuators, the largest first, and by kinds where links bend."""
+    """By links, joints and actuators, the largest first, and by kinds where there are several."""
     caption = "Of the strain energy under unit forces along x, y and z, summed."
     whole = shares.bent | {name: share * shares.links[ACTUATORS] for name, share in shares.actuators.items()}
     whole |= {f"joint {name}": share * shares.links[JOINTS] for name, share in shares.joints.items()}
