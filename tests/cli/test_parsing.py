@@ -12,6 +12,8 @@ WRONG = {
     "sweep zeng2019 --alng x=3": ("unknown option --alng of assur sweep", "did you mean --along"),
     "sweep zeng2019 --ouput out --along x=3": ("unknown option --ouput of assur sweep", "did you mean --output"),
     "sweep zeng2019 -o": ("-o needs a value", ""),
+    "synthesize --known --top 3 --new": ("one of --known and --new may be given", ""),
+    "synthesize --top 3 --top 4": ("--top is given twice", ""),
     "sweep zeng2019 --output": ("--output needs a value", ""),
     "sweep zeng2019 --along x=3": ("--output (or -o) is missing", ""),
     "certify zeng2019 --finst=3": ("unknown option --finst of assur certify", "did you mean --finest"),

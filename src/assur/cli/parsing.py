@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cyclopts import CycloptsError, MissingArgumentError, UnusedCliTokensError
+from cyclopts import CycloptsError, MissingArgumentError, RepeatArgumentError, UnusedCliTokensError
 
 from assur.cli.numbers import END
 from assur.errors import UsageError
@@ -29,6 +29,8 @@ def complaint(app: App, words: Sequence[str], error: CycloptsError) -> UsageErro
         near = difflib.get_close_matches(unknown.lstrip("-"), by_word, n=2)
         guess = f"did you mean {' or '.join(by_word[word] for word in near)}? " if near else ""
         return UsageError(f"unknown option {unknown}{f' of assur {command[0]}' if command else ''}", hint=guess + see)
+    if isinstance(error, RepeatArgumentError) and error.token.keyword:
+        return UsageError(_repeated(app, words, error.token.keyword), hint=see)
     return UsageError(_said(words, error), hint=see)
 
 
@@ -55,6 +57,15 @@ def _unknown(known: frozenset[str], words: Sequence[str]) -> str:
         if name.startswith("-") and name not in known and not (name[1:2] != "-" and name[:2] in known):
             return name
     return ""
+
+
+def _repeated(app: App, words: Sequence[str], name: str) -> str:
+    """An option that is given twice, or by two of its names, as one and its opposite."""
+    every = (argument.names for command in words[:1] for argument in app[command].assemble_argument_collection())
+    names = next((names for names in every if name in names), (name,))
+    given = dict.fromkeys(word.partition("=")[0] for word in words)
+    typed = [word for word in given if word in names]
+    return f"one of {' and '.join(typed)} may be given" if len(typed) > 1 else f"{name} is given twice"
 
 
 def _said(words: Sequence[str], error: CycloptsError) -> str:
