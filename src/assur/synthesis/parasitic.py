@@ -26,7 +26,7 @@ from assur.synthesis.limb_motions import CandidateLimb, limb_by_itself
 from assur.synthesis.limbs import FREE, Actuators, LimbType, short_types
 from assur.synthesis.positions import DIGITS, SWAP, turned
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.shared_axes import End, sharing, with_common_line
+from assur.synthesis.shared_axes import End, Lines, common_lines, on_lines, with_common_lines
 from assur.synthesis.tally import Tally
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse
@@ -49,9 +49,6 @@ TURNS = (np.eye(3), SWAP, *(np.round(turn, DIGITS) for turn in _THIRDS))
 EVENLY = (0, 2, 3)
 """Positions of three limbs evenly about z."""
 
-LINES: tuple[End, ...] = ("", "base", "platform")
-"""Where limbs may turn about one line, tried in this order."""
-
 SEEDS = (1, 2)
 """Two places of a limb: the directions of its constraints must not depend on where it stands."""
 
@@ -66,17 +63,17 @@ class ArrangedClasses:
     Attributes:
         chosen: the class of each limb.
         places: the position of each.
-        line: the link on which those with parallel axes next to it turn about one line, none where it is empty.
+        lines: about which some of them turn, of the base or the platform.
     """
 
     chosen: tuple[Class, ...]
     places: tuple[int, ...]
-    line: End
+    lines: Lines
 
     def chains(self, limbs: Sequence[CandidateLimb]) -> tuple[Chain, ...]:
         """How limbs, one of each class, stand in it."""
         placed = [limb.chains[place] for limb, place in zip(limbs, self.places, strict=True)]
-        return with_common_line(placed, self.line)
+        return with_common_lines(placed, self.lines)
 
     @property
     def members(self) -> int:
@@ -144,13 +141,11 @@ def arranged_classes(sets: Iterable[tuple[Class, ...]], motion: RequiredMotion) 
         simplest = [members[0] for members in chosen]
         for places in _placements(chosen):
             chains = [limb.chains[place] for limb, place in zip(simplest, places, strict=True)]
-            for line in LINES:
-                shared = sharing(chains, line) if line else ()
-                if line and not shared:
-                    continue
-                lines: list[End] = [line if slot in shared else "" for slot in range(len(chosen))]
-                if together(list(map(wrenches, simplest, range(len(chosen)), places, lines))).leave(motion):
-                    yield ArrangedClasses(chosen, places, line)
+            for lines in common_lines(chains):
+                on = {number: end for end, numbers in on_lines(chains, lines).items() for number in numbers}
+                ends: list[End] = [on.get(slot, "") for slot in range(len(chosen))]
+                if together(list(map(wrenches, simplest, range(len(chosen)), places, ends))).leave(motion):
+                    yield ArrangedClasses(chosen, places, lines)
                     break
 
 

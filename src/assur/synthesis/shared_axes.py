@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 from typing import Literal
 
 from assur.topology.chains import Chain, ChainJoint
@@ -11,9 +12,48 @@ from assur.topology.directions import Vector, parallel
 from assur.topology.notation import parse_chains, plain_text
 
 End = Literal["", "base", "platform"]
-"""The link in which the line stands; on none where it is empty."""
+"""The link in which a line stands; on none where it is empty."""
 
 LABELS: dict[End, str] = {"base": "O", "platform": "Q"}
+
+
+Lines = Mapping[End, tuple[int, ...] | None]
+"""Links in which a line stands, and the limbs that may turn about it; None: all."""
+
+
+def common_lines(chains: Sequence[Chain]) -> Iterator[Lines]:
+    """What limbs could share, the simplest first: nothing, one line, one of the base and one of the platform.
+
+    On a line are all limbs with parallel axes next to the link, or those of them that are equal; on both lines none is.
+
+    >>> from assur.topology.notation import parse_chains
+    >>> list(common_lines(parse_chains(["U[x,y] P[z] R[y]", "R[x] P[z] S", "S P[z] R[x]"])))
+    [{}, {'base': None}]
+    """
+    yield {}
+    able = {end: numbers for end in LABELS if (numbers := sharing(chains, end))}
+    yield from ({end: None} for end in able)
+    equal = {end: _equal(chains, numbers) for end, numbers in able.items()}
+    yield from ({end: numbers} for end, sets in equal.items() for numbers in sets)
+    if len(able) == len(LABELS):
+        for chosen in product(*([None, *equal[end]] for end in LABELS)):
+            lines: Lines = dict(zip(LABELS, chosen, strict=True))
+            if not set.intersection(*map(set, on_lines(chains, lines).values())):
+                yield lines
+
+
+def on_lines(chains: Sequence[Chain], lines: Lines) -> dict[End, tuple[int, ...]]:
+    """The limbs that turn about each line: of those that may, the ones whose axes next to the link are parallel."""
+    able = {end: sharing(chains, end) for end in lines}
+    return {end: tuple(n for n in able[end] if may is None or n in may) for end, may in lines.items()}
+
+
+def _equal(chains: Sequence[Chain], numbers: Sequence[int]) -> list[tuple[int, ...]]:
+    """Those of some limbs that are equal, two or more, but not all."""
+    alike: dict[str, list[int]] = {}
+    for number in numbers:
+        alike.setdefault(chains[number].text, []).append(number)
+    return [tuple(some) for some in alike.values() if 1 < len(some) < len(numbers)]
 
 
 def sharing(chains: Sequence[Chain], end: End) -> tuple[int, ...]:
@@ -41,16 +81,18 @@ def sharing(chains: Sequence[Chain], end: End) -> tuple[int, ...]:
     return tuple(several[0]) if len(several) == 1 else ()
 
 
-def with_common_line(chains: Sequence[Chain], end: End) -> tuple[Chain, ...]:
-    """The limbs, those of them that can share a line of a link with a label for it.
+def with_common_lines(chains: Sequence[Chain], lines: Lines) -> tuple[Chain, ...]:
+    """The limbs, those of them that share a line of a link with a label for it.
 
     >>> from assur.topology.notation import parse_chains
-    >>> shared = with_common_line(parse_chains(["U[x,y] P[z] R[y]", "R[x] P[z] S"]), "base")
+    >>> shared = with_common_lines(parse_chains(["U[x,y] P[z] R[y]", "R[x] P[z] S"]), {"base": None})
     >>> [chain.text for chain in shared]
     ['U[x@O,y] P[z] R[y]', 'R[x]@O P[z] S']
     """
-    numbers = sharing(chains, end) if end else ()
-    labelled = [_labelled(chain, end) if number in numbers else chain for number, chain in enumerate(chains)]
+    labelled = list(chains)
+    for end, numbers in on_lines(chains, lines).items():
+        for number in numbers:
+            labelled[number] = _labelled(labelled[number], end)
     return parse_chains([plain_text(chain) for chain in labelled])
 
 

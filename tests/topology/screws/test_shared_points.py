@@ -137,6 +137,11 @@ AT_ONE_POINT = [
 ]
 
 
+def test_limbs_that_end_in_one_point_may_have_one_that_slides_along_it():
+    found = assur.topology(["R[x] P[z] U[y,z@Q]", "C[y] P[z] U[x,z@Q]", "S P[x] C[z]@Q"])
+    assert (found.dof, found.poc.dim) == (3, 3)
+
+
 @pytest.mark.parametrize(("texts", "numbers"), AT_ONE_POINT)
 def test_both_routes_see_the_platform_where_its_limbs_meet(texts, numbers):
     facts = assur.topology(texts)

@@ -115,7 +115,8 @@ def point_of_platform(linkage: Linkage, chains: Sequence[Chain]) -> str:
     label = common_end(chains)
     if not label:
         return ""
-    runs = [_end_run(chain, -1) for chain in chains if label in _labels(chain.elements[-1])]
+    ending = [chain for chain in chains if label in _labels(chain.elements[-1])]
+    runs = [_end_run(chain, -1) or (chain.joints[-1].name,) for chain in ending]  # of a C, which slides, its axis alone
     places = [common_place([line_of(linkage.joints[name]) for name in run]) for run in runs]
     beside = [chain.joints[-1].name for chain in chains if label in _beside_centre(chain.elements[-1])]
     places += [(linkage.joints[name].point, linkage.joints[name].screws[-1, :3]) for name in beside]
