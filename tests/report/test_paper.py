@@ -5,6 +5,7 @@ import subprocess
 import pytest
 
 import assur
+from assur.figures.labels import formula_text
 from assur.report.findings import Findings
 from assur.report.paper import DOCUMENT, LONGEST, table_csv, table_tex, write_paper
 from assur.report.render import Page, page_html
@@ -56,7 +57,8 @@ def test_it_has_nomenclature_numbered_equations_and_what_is_cited(folder):
     document = (folder / DOCUMENT).read_text()
     record = assur.load("fivebar")
     for name in (*record.parameters, *record.platform.pose):
-        assert rf"\item[{name}]" in document
+        assert rf"\item[{formula_text(name)}]" in document
+    assert "U+" not in document + "".join(path.read_text() for path in (folder / "tables").glob("*.tex"))
     assert r"\bibitem{assur}" in document
     assert r"Five-bar: 50 \% \& more" in document
 

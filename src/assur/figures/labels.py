@@ -45,10 +45,12 @@ def is_settable(latex: str) -> bool:
 def label(latex: str, name: str) -> str:
     r"""LaTeX that can be set, without dollar signs: that which is given, else the name as mathematics, else as words.
 
-    >>> label(r"\theta_{1", "theta"), label("", "l2"), label("", "q_a_b")
-    ('\\theta', 'l_{2}', '\\mathrm{q\\ a\\ b}')
+    What is given is the name itself where a file gives nothing else.
+
+    >>> label(r"\theta_{1", "theta"), label("q1", "q1"), label("", "q_a_b")
+    ('\\theta', 'q_{1}', '\\mathrm{q\\ a\\ b}')
     """
-    if is_settable(latex):
+    if latex != name and is_settable(latex):
         return latex
     own = mathematics(name)
     return own if is_settable(own) else rf"\mathrm{{{upright(words(name))}}}"

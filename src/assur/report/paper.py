@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from assur.figures import catalogue as figures
+from assur.figures.labels import formula_text, label
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.tex import broken_tex, tex
@@ -32,7 +33,8 @@ from assur.results.latex_text import prose
 
 DOCUMENT, FIGURES, TABLES = "report.tex", "figures", "tables"
 HEAD = r"""\documentclass[10pt,a4paper]{article}
-\usepackage{amsmath,amssymb,graphicx}
+\usepackage{amsmath,amssymb,array,graphicx}
+\setlength{\belowcaptionskip}{4pt}
 \setlength{\textwidth}{176mm}\setlength{\oddsidemargin}{-8.4mm}\setlength{\evensidemargin}{-8.4mm}
 \setlength{\textheight}{240mm}\setlength{\topmargin}{-14mm}
 \setcounter{MaxMatrixCols}{40}
@@ -167,13 +169,15 @@ def table_tex(table: Table) -> str:
     rows = [[_cell(cell) for cell in row] for row in table.rows[:LONGEST]]
     texts = [[cell for cell in column if isinstance(cell, str)] for column in zip(*table.rows, strict=True)]
     wide = [max(map(len, column), default=0) > WORDS for column in texts] or [False] * len(table.columns)
-    kinds = "".join("p{50mm}" if own else "l" for own in wide)
+    kinds = "".join(r">{\raggedright\arraybackslash}p{50mm}" if own else "l" for own in wide)
     lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", _row(map(prose, table.columns)), r"\hline"]
     return "\n".join([*lines, *map(_row, rows), r"\hline", r"\end{tabular}"]) + "\n"
 
 
 def _row(cells: Iterable[str]) -> str:
-    return " & ".join(cells) + r" \\"
+    """A row; one with matrices stands off from the next."""
+    row = " & ".join(cells)
+    return row + (r" \\[3pt]" if "matrix}" in row else r" \\")
 
 
 def _cell(cell: Cell) -> str:
@@ -219,13 +223,14 @@ def _nomenclature(record: MechanismRecord) -> Iterator[str]:
     yield r"\section*{Nomenclature}"
     yield r"\begin{description}\setlength{\itemsep}{0pt}\setlength{\parskip}{0pt}"
     for item in record.inputs:
-        yield rf"\item[{prose(item.name)}] input, the {item.coordinate.kind} of joint {prose(item.coordinate.joint)}"
+        what = f"input, the {item.coordinate.kind} of joint {item.coordinate.joint}"
+        yield rf"\item[${label(item.latex, item.name)}$] {prose(what)}"
     for name in record.platform.pose:
-        yield rf"\item[{prose(name)}] coordinate of the platform"
+        yield rf"\item[${label('', name)}$] coordinate of the platform"
     for name, dimension in record.parameters.items():
         unit = "" if dimension.unit == "1" else f" {dimension.unit}"
         words = f": {dimension.meaning}" if dimension.meaning else ""
-        yield rf"\item[{prose(name)}] {prose(f'{dimension.value:g}{unit}{words}')}"
+        yield rf"\item[{formula_text(name)}] {prose(f'{dimension.value:g}{unit}{words}')}"
     yield r"\end{description}"
 
 

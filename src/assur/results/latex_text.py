@@ -11,6 +11,7 @@ Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"""
 _GREEK = dict(zip("αβγδεζηθκλμνξπρστφχψωΔΘΛΞΠΣΦΨΩ", _NAMES.split(), strict=True))
 MATHEMATICAL = {sign: f"^{{{power}}}" for sign, power in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True)}
 MATHEMATICAL |= {sign: f"_{{{power}}}" for sign, power in zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)}
+MATHEMATICAL |= {sign: f"_{{{name}}}" for sign, name in zip("ᵢⱼᵣₖₘₙ", "ijrkmn", strict=True)}
 MATHEMATICAL |= {sign: f"\\{name}" for sign, name in _GREEK.items()}
 MATHEMATICAL |= {"\N{MINUS SIGN}": "-", "\N{MICRO SIGN}": r"\mu", "·": r"\cdot", "±": r"\pm", "°": r"^\circ"}
 MATHEMATICAL |= {"\N{MULTIPLICATION SIGN}": r"\times", "\N{PRIME}": "'", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
@@ -22,6 +23,9 @@ _WORDS = {"\N{EN DASH}": "--", "…": r"\dots{}", "\u202f": r"\,", "\u00a0": "~"
 _WORDS |= {"‘": "`", "’": "'", "“": "``", "”": "''", "\N{EM DASH}": "---"}
 _LATIN = "\u017f"
 """The last of the letters that LaTeX reads as they are."""
+
+_DOTTED = re.compile("(\\w)\N{COMBINING DOT ABOVE}")
+"""A rate."""
 
 _RUNS = re.compile(r"\$\$")
 _BARE = re.compile(r"([_^])(\\[A-Za-z]+)(?![A-Za-z{])")
@@ -43,8 +47,14 @@ def prose(text: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """The same of words without mathematics in them."""
-    joined = _RUNS.sub("", "".join(map(_sign, text)))
+    r"""The same of words without mathematics in them.
+
+    >>> escaped("q\u0307 and σᵣ")
+    '$\\dot{q}$ and $\\sigma _{r}$'
+    """
+    parts = _DOTTED.split(text)
+    joined = "".join(rf"$\dot{{{part}}}$" if k % 2 else "".join(map(_sign, part)) for k, part in enumerate(parts))
+    joined = _RUNS.sub("", joined)
     return _POWERS.sub("", joined)
 
 

@@ -59,13 +59,17 @@ def latex_mathml(source: str) -> str:
         return _as_it_stands(source)
 
 
+_OF_POINT = re.compile(r"([a-z]+)([A-Z]\d*)")
+"""A quantity of a point, as rA."""
+
+
 def symbol_mathml(latex: str, name: str) -> str:
     r"""MathML of a symbol: of its LaTeX where that is understood, else of its name.
 
     >>> symbol_mathml(r"\theta_1", "q") == latex_mathml(r"\theta_1"), symbol_mathml(r"\theta_{1", "q")
     (True, '<mi>q</mi>')
     """
-    return latex_mathml(latex) if is_understood(latex) else name_mathml(name)
+    return latex_mathml(latex) if latex != name and is_understood(latex) else name_mathml(name)
 
 
 def is_understood(latex: str) -> bool:
@@ -78,11 +82,16 @@ def is_understood(latex: str) -> bool:
 
 
 def name_mathml(name: str) -> str:
-    """MathML of a name in the code: Greek letters by name, digits and what follows a `_` as subscript.
+    """MathML of a name in the code: Greek letters by name; as subscripts digits, a point and what follows a `_`.
 
     >>> name_mathml("l1"), name_mathml("s_alpha")
     ('<msub><mi>l</mi><mn>1</mn></msub>', '<msub><mi>s</mi><mi>α</mi></msub>')
+    >>> name_mathml("alphaA"), name_mathml("rA")
+    ('<msub><mi>α</mi><mi>A</mi></msub>', '<msub><mi>r</mi><mi>A</mi></msub>')
     """
+    of_point = _OF_POINT.fullmatch(name)
+    if of_point and (len(of_point[1]) == 1 or of_point[1] in GREEK):
+        name = f"{of_point[1]}_{of_point[2]}"
     head, _, tail = name.partition("_")
     if head in FUNCTIONS and tail:
         return f"<mrow><mi>{head}</mi>{APPLY}{_argument(tail)}</mrow>"
