@@ -22,7 +22,8 @@ from assur.numerics import rotations
 from assur.singularity.examples import singular_examples as find_singular_examples
 
 DERIVED = ("zeng2019", "fivebar", "delta_4s", "linear_delta_4s", "linear_delta_4r", "orthoglide", "tsai_platform",
-           "three_p2us", "three_crr", "tripteron", "planar_3rpr", "planar_3rrr", "three_rrc", "h4_robot")  # fmt: skip
+           "three_p2us", "three_crr", "tripteron", "planar_3rpr", "planar_3rrr", "three_rrc", "h4_robot",
+           "three_rps")  # fmt: skip
 """That of the 3-RPR has legs of either sign, and so more branches than the written one."""
 REPLACED = [pytest.param(f"{name}, derived", marks=pytest.mark.deep) for name in DERIVED]
 

@@ -25,6 +25,7 @@ PLACES = 100_000
 pytestmark = pytest.mark.compiler
 
 
+UNDECIDED = -3
 DERIVED = " derived"
 """Behind a name: its closed form is the derived one."""
 
@@ -137,7 +138,9 @@ def test_branches_of_roots_are_python_s_on_many_inputs(library, problem):
 
 
 @pytest.mark.parametrize(
-    "library", [*POLYNOMIALS, pytest.param("planar_3rrr" + DERIVED, marks=pytest.mark.deep)], indirect=True
+    "library",
+    [*POLYNOMIALS, *(pytest.param(name + DERIVED, marks=pytest.mark.deep) for name in ("planar_3rrr", "three_rps"))],
+    indirect=True,
 )
 def test_roots_of_polynomials_are_python_s_where_none_are_double(library):
     record, number = library.record, 2_000
@@ -151,6 +154,22 @@ def test_roots_of_polynomials_are_python_s_where_none_are_double(library):
         ours, theirs = out["pose"][k][: count[k]], answer.poses[k][exists[k]]
         gaps = np.max(np.abs(ours[:, None] - theirs[None]), axis=-1)
         assert count[k] == 0 or np.max(np.min(gaps, axis=1)) < 1e-5 * max(1.0, np.max(np.abs(theirs)))
+
+
+@pytest.mark.parametrize("library", ["zeng2019"], indirect=True)
+def test_where_the_platform_moves_by_itself_no_number_of_solutions_is_told(library):
+    """B = yA1 - l3 - yA2 vanishes, by which the formulas divide."""
+    second = 12.0
+    count, _ = library.solve("direct", np.array([[second + library.record.values.l3, second, 0.0]]))
+    assert [*count] == [UNDECIDED]
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("library", ["three_rps" + DERIVED], indirect=True)
+def test_where_roots_are_double_no_fewer_solutions_are_told(library):
+    """Legs of equal lengths have eight poses, of which two at a time share the angle of a leg."""
+    count, _ = library.solve("direct", np.array([[250.0, 250.0, 250.0], [250.0, 251.0, 250.0], [250.0, 250.0, 280.0]]))
+    assert [*count] == 3 * [UNDECIDED]
 
 
 @pytest.mark.parametrize("library", ["zeng2019", "delta_4s"], indirect=True)

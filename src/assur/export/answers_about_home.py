@@ -23,7 +23,7 @@ DOUBTFUL = {
     "direct": (Status.self_motion, Status.not_closed, Status.undecided),
     "inverse": (Status.not_closed, Status.undecided),
 }
-"""What an answer by which a file is tested must not be."""
+"""What no branch of an answer by which a file is tested may be."""
 
 
 def answers_about_home(record: MechanismRecord, problem: Problem) -> Iterator[tuple[FloatArray, list[FloatArray]]]:
@@ -44,5 +44,5 @@ def answers_about_home(record: MechanismRecord, problem: Problem) -> Iterator[tu
                 continue
             given = np.asarray(next(iter(inputs)).inputs)
         answers = solve(record, given, method="closed form")
-        if not any(own.status in DOUBTFUL[problem] for own in answers):
+        if not np.any(np.isin(answers.status, DOUBTFUL[problem])):
             yield given, [np.asarray(own.pose if problem == "direct" else own.inputs) for own in answers]

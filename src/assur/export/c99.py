@@ -241,16 +241,15 @@ class _Source:
                     yield f"out->jq[{row}][{k}] = {number_text(driven.sign)} * out->jq[{row}][{k}];"
 
     def _existence(self, kernel: Kernel) -> Iterator[str]:
-        for k, margin in enumerate(kernel.margins):
-            bound = number_text(tolerance(self.record, margin))
-            if margin.zero == "degenerate":
-                yield f"if (!(fabs(out->margins[{k}]) > {bound})) return 0; /* {margin.name} */"
-            else:
-                yield f"if (!(out->margins[{k}] >= -{bound})) return 0; /* {margin.name} */"
-        for k in range(len(self.record.inputs)):
-            yield f"if (!isfinite(out->inputs[{k}])) return 0;"
-        for k in range(len(self.record.platform.pose)):
-            yield f"if (!isfinite(out->pose[{k}])) return 0;"
+        """0 is returned where a radicand is negative, -1 where the formulas degenerate and do not tell."""
+        for later in (False, True):
+            for k, margin in enumerate(kernel.margins):
+                if (margin.zero == "degenerate") == later:
+                    own, bound = f"out->margins[{k}]", number_text(tolerance(self.record, margin))
+                    test = f"!(fabs({own}) > {bound})) return -1" if later else f"{own} < -{bound}) return 0"
+                    yield f"if ({test}; /* {margin.name} */"
+        for kind, size in (("inputs", len(self.record.inputs)), ("pose", len(self.record.platform.pose))):
+            yield from (f"if (!isfinite(out->{kind}[{k}])) return -1;" for k in range(size))
 
     def _solver(self, problem: Problem) -> str:
         size = len(self.record.inputs) if problem == "direct" else len(self.record.platform.pose)
@@ -275,7 +274,8 @@ class _Source:
             lines += [
                 f"        {self.name}_coefficients(p, {given}, sign, c);",
                 f"        int real = polynomial_roots(c, {eliminant.roots}, {angle}, roots);",
-                f"        if (real < 0) return {self.name.upper()}_VANISHES;",
+                f"        if (real == -1) return {self.name.upper()}_VANISHES;",
+                f"        if (real < 0) return {self.name.upper()}_UNDECIDED;",
                 "        for (int r = 0; r < real; r++) {",
                 *([f"            roots[r] = {self.name}_nearer(p, {given}, sign, roots[r]);"] * self._polishes),
                 *_filled(self, problem, given, "roots[r]", signs, 12),
@@ -299,7 +299,8 @@ class _Source:
 
 def _filled(source: _Source, problem: Problem, given: str, root: str, signs: Sequence[str], indent: int) -> list[str]:
     pad = " " * indent
-    lines = [f"if ({source.name}_{problem}_one(p, {given}, sign, {root}, &out[count])) {{"]
+    lines = [f"int own = {source.name}_{problem}_one(p, {given}, sign, {root}, &out[count]);",
+             f"if (own < 0) return {source.name.upper()}_UNDECIDED;", "if (own > 0) {"]  # fmt: skip
     lines += [f"    for (int k = 0; k < {len(signs)}; k++) out[count].signs[k] = (int)sign[k];"] if signs else []
     kept, size = (
         ("inputs", len(source.record.inputs)) if problem == "direct" else ("pose", len(source.record.platform.pose))

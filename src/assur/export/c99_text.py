@@ -15,6 +15,7 @@ HEAD = """\
 
 #define {upper}_NOT_FINITE (-1) /* what is given is no number, or larger than 1e60 */
 #define {upper}_VANISHES (-2) /* the polynomial vanishes: infinitely many solutions, or its roots were not found */
+#define {upper}_UNDECIDED (-3) /* formulas degenerate, or roots are too near each other to tell how many there are */
 {defines}
 
 typedef struct {{
@@ -37,6 +38,7 @@ typedef struct {{
 
 POLYNOMIAL = r"""
 #define MOST_ROOTS 16
+#define TOO_NEAR 1e-4 /* of two roots, per their size: digits that coefficients lose where roots are double */
 
 /* Horner, with the derivative: of p at x + i y, the real and imaginary parts of p and p'. */
 static void horner(const double *c, int degree, double x, double y, double *value, double *slope)
@@ -58,7 +60,8 @@ static void horner(const double *c, int degree, double x, double y, double *valu
 }
 
 /* Real roots of c[0] + c[1] t + ..., rising, by Aberth's iteration; as angles 2 atan(t) where asked, a leading
- * coefficient that vanishes being a root at pi. Their number, or -1 where the polynomial vanishes or is no number. */
+ * coefficient that vanishes being a root at pi. Their number, -1 where the polynomial vanishes or is no number, -2
+ * where two roots are so near each other that rounding may decide whether they are real. */
 static int polynomial_roots(const double *given, int most, int angle, double *out)
 {
     double c[MOST_ROOTS + 1], x[MOST_ROOTS], y[MOST_ROOTS], size = 0.0, radius = 0.0;
@@ -105,7 +108,10 @@ static int polynomial_roots(const double *given, int most, int angle, double *ou
     }
     for (int k = 0; k < degree; k++) {
         double p[2], d[2], t = x[k];
-        if (!(fabs(y[k]) <= 1e-7 * (1e-3 * radius + hypot(x[k], y[k])))) continue;
+        double own = 1e-3 * radius + hypot(x[k], y[k]), near = TOO_NEAR * own;
+        for (int j = 0; j < degree; j++)
+            if (j != k && fabs(y[k]) <= near && hypot(x[k] - x[j], y[k] - y[j]) <= near) return -2;
+        if (!(fabs(y[k]) <= 1e-7 * own)) continue;
         for (int round = 0; round < 3; round++) {
             horner(c, degree, t, 0.0, p, d);
             if (d[0] == 0.0 || !(fabs(p[0] / d[0]) <= 1e-6 * (fabs(t) + 1e-3 * radius))) break;
