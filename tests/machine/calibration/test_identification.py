@@ -10,6 +10,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.machine.calibration.chosen_poses import random_poses
 from assur.machine.calibration.dimensions import dimensions
 from assur.machine.calibration.identification import Identification, identification
+from own_machines import own_machine
 
 
 @pytest.fixture(scope="module")
@@ -129,6 +130,13 @@ def test_copies_together_are_the_dimension(name, copies):
             parts = [errors.sensitivity[own] for own in names if own.endswith(f".{whole}")]
             np.testing.assert_allclose(np.sum(parts, axis=0), errors.sensitivity[whole], atol=1e-6)
     assert len(set(names)) == len(names) >= len(dimensions(record))
+
+
+def test_a_mechanism_of_no_dimensions_has_offsets_of_inputs_alone():
+    record = own_machine("screws")
+    assert dimensions(record) == dimensions(record, "link") == ()
+    own = identification(record, random_poses(record, 4), copies="limb")
+    assert own.parameters == tuple(item.name for item in record.inputs)
 
 
 def test_nothing_told_is_nothing_observed():

@@ -28,7 +28,7 @@ def dimensions(record: MechanismRecord, copies: Owner | None = None) -> tuple[st
     ('base.g', 'crank1.l1', 'crank2.l1', 'rod1.l2', 'rod2.l2')
     """
     errors = geometry_errors(record, home_values(record))
-    moved = np.concatenate([errors.twists.reshape(len(errors.names), -1), errors.point], axis=1)
+    moved = np.concatenate([errors.twists.reshape(len(errors.names), 6 * len(errors.joints)), errors.point], axis=1)
     names: list[str] = []
     for place, whole in enumerate(errors.names):
         if "." in whole:
