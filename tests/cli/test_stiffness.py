@@ -88,6 +88,12 @@ def test_compliances_and_gears_that_are_none_are_told_with_their_line(assur_cli,
     assert told in run.err
 
 
+def test_of_equal_stiffness_directions_are_said_to_be_some_of_many(assur_cli):
+    said = "where stiffness is the same, every direction between theirs has it"
+    assert said in assur_cli("stiffness", "orthoglide", "--pose", "0", "0", "0").out
+    assert said not in assur_cli("stiffness", "zeng2019", "--pose", "-15.4714", "9.6849", "456.3315").out
+
+
 def test_sizes_in_millimetres_are_noted_and_without_density_there_are_no_frequencies(assur_cli, tmp_path):
     path = tmp_path / "own.toml"
     text = assur.load("fivebar").file.read_text(encoding="utf-8")

@@ -21,7 +21,7 @@ from assur.kinematics.status import Status
 from assur.machine.elasticity.energies import ranked
 from assur.machine.elasticity.mode_shapes import ModeShape, mode_shapes
 from assur.machine.elasticity.springs import ACTUATORS, JOINTS
-from assur.machine.elasticity.stiffness import Stiffness
+from assur.machine.elasticity.stiffness import Stiffness, alike
 from assur.machine.elasticity.structure import yields
 from assur.machine.masses.slips import slips
 from assur.machine.motion.screws import pose_metres
@@ -134,6 +134,8 @@ def _translations(answer: StiffnessAnswer) -> Iterable[RenderableType]:
     ]
     yield table(("stiffness [N/um]", "along x", "y", "z", "actuators alone [N/um]"), rows)
     yield "of forces along principal directions without moment; those of the actuators alone have their own"
+    if same := alike([np.inf if size is None else size for size in answer.translational_eigenvalues]):
+        yield same
 
 
 def _matrices(answer: StiffnessAnswer) -> Iterable[RenderableType]:

@@ -27,6 +27,8 @@ from assur.model.mechanism import MechanismRecord
 from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
+ALIKE = 1e-6
+"""Share by which stiffness along two principal directions differs at most where it counts as the same."""
 RIGID = 1e-12
 """Share of the largest compliance below which nothing gives way; turns count by the characteristic length."""
 ABREAST = 256
@@ -163,6 +165,18 @@ class Stiffness(Tabulated):
             )
             rows.append(f"{Status(int(code)).name}: {told} N/m")
         return "\n".join([f"stiffness of {self.record.name}, translations without moment", *rows])
+
+
+def alike(sizes: ArrayLike) -> str:
+    """What is to be said of the directions of ascending stiffness where two are the same; empty where none are.
+
+    >>> alike([1.0, 1.0, 3.0]), alike([1.0, 2.0, np.inf])
+    ('where stiffness is the same, every direction between theirs has it', '')
+    """
+    known = np.asarray(sizes, dtype=float)
+    known = known[np.isfinite(known)]
+    same = bool(np.any(np.diff(known) <= ALIKE * known[1:]))
+    return "where stiffness is the same, every direction between theirs has it" if same else ""
 
 
 def stiffness(record: MechanismRecord, poses: ArrayLike, mode: str | None = None, *, shear: bool = True) -> Stiffness:

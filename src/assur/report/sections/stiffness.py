@@ -9,7 +9,7 @@ import numpy as np
 from assur.figures.strain_colours import drawn_stiffness
 from assur.machine.elasticity.energies import EnergyShares, ranked
 from assur.machine.elasticity.springs import ACTUATORS, JOINTS
-from assur.machine.elasticity.stiffness import Stiffness
+from assur.machine.elasticity.stiffness import Stiffness, alike
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, RANK, Result, Scalar, Section, Table
 from assur.results.typeset_text import short
@@ -48,7 +48,8 @@ def _principal(answer: Stiffness) -> Table:
         for size, way, motors in zip(sizes, ways, alone, strict=True)
     )
     columns = ("stiffness (N/µm)", "along x, y, z", "actuators alone (N/µm)")
-    caption = "Of forces along principal directions without moment; those of the actuators alone have their own."
+    said = f"; {alike(sizes)}" if alike(sizes) else ""
+    caption = f"Of forces along principal directions without moment; those of the actuators alone have their own{said}."
     return Table("Principal stiffness", columns, rows, caption, known_by=FLOATING)
 
 
