@@ -10,6 +10,7 @@ from assur.kinematics import assemblies
 from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
+from assur.kinematics.monodromy import assemblies_by_monodromy
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.registry import load_record
@@ -25,7 +26,7 @@ def test_a_proof_that_leaves_assemblies_out_is_none(left, monkeypatch):
     part = replace(whole, joints=whole.joints[:0] if left == 0 else whole.joints[1:2])
     assert assemblies._missed(record, "direct", inputs, part)
     monkeypatch.setattr(assemblies, "_known", lambda *_: part)
-    monkeypatch.setattr(assemblies, "solved_by_monodromy", lambda *_: None)
+    monkeypatch.setattr(assemblies_by_monodromy, "solved_by_monodromy", lambda *_: None)
     answer = assemblies.assemblies(record, "direct", inputs, "", "auto", crossed=False)
     assert not answer.complete
     assert "an assembly that was met by chance is none of these" in answer.right

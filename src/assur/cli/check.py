@@ -82,6 +82,8 @@ def _units(record: MechanismRecord) -> Iterator[Problem]:
 
 def _of_closed_form(record: MechanismRecord, deep: bool) -> tuple[Problem, ...]:
     """What a closed form claims and the joint graph denies; at places, one that is built in is held so by the tests."""
+    if record.closed_form is None:
+        return ()  # without all the laws that a closed form is held to
     from assur.kinematics.contract.admission import closed_form_problems
     from assur.kinematics.contract.check import exact_problems
     from assur.kinematics.contract.extent import DEEP, IN_FULL
@@ -91,11 +93,11 @@ def _of_closed_form(record: MechanismRecord, deep: bool) -> tuple[Problem, ...]:
 
 def _exact(record: MechanismRecord) -> ExactAnswer | None:
     """What exact arithmetic says of the formulas of a closed form."""
+    if record.closed_form is None:
+        return None
     from assur.kinematics.contract.exact import exactness
     from assur.results.answers.check import ExactAnswer
 
-    if record.closed_form is None:
-        return None
     exact = exactness(record)
     proved = exact.proved
     error, general = exact.error if proved else None, exact.general if proved else None
@@ -103,7 +105,6 @@ def _exact(record: MechanismRecord) -> ExactAnswer | None:
 
 
 def _summary(record: MechanismRecord) -> SoundFacts:
-    from assur.kinematics.contract.check import unproved
     from assur.kinematics.rates.architecture import architecture_text
     from assur.kinematics.rates.motions import general
     from assur.model.registry import is_built_in
@@ -122,8 +123,14 @@ def _summary(record: MechanismRecord) -> SoundFacts:
         closed_form_checked=own,
         closed_form_not_run=record.closed_form_not_run,
         exact=_exact(record),
-        unproved=tuple(unproved(record)) if own else (),
+        unproved=_unproved(record) if own else (),
     )
+
+
+def _unproved(record: MechanismRecord) -> tuple[str, ...]:
+    from assur.kinematics.contract.check import unproved
+
+    return unproved(record)
 
 
 def _next(mechanism: str, record: MechanismRecord, faults: Iterable[Problem]) -> tuple[str, ...]:

@@ -19,7 +19,6 @@ from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion, solve_by_loops, staying_parallel
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms, some_crossed
 from assur.kinematics.modes import Method, Problem
-from assur.kinematics.monodromy.assemblies_by_monodromy import solved_by_monodromy
 from assur.kinematics.near_home import nearest_first
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
@@ -220,6 +219,8 @@ def _assemblies(
     met = last if len(found.joints) else "none of which found one"
     reason = f"not proved: a search from {found.starts} starts, {met}{why}"
     if method == "auto" and not interrupted:
+        from assur.kinematics.monodromy.assemblies_by_monodromy import solved_by_monodromy  # the last resort
+
         try:
             whole = solved_by_monodromy(record, problem, given, found.joints)
         except KeyboardInterrupt:

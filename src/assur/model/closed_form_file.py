@@ -18,8 +18,6 @@ from assur.model.consent import may_run
 from assur.model.file.faults import listed
 from assur.model.file.texts import MAX_NAME
 from assur.model.formula import parse
-from assur.model.kernels.faults import FormFault
-from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
 
 
@@ -37,6 +35,9 @@ def read_closed_form(path: Path, name: str, text: str) -> ClosedForm | None:
     Errors:
         MechanismFileError: it cannot be worked out, or defines no CLOSED_FORM.
     """
+    from assur.model.kernels.faults import FormFault  # what reads kernels, for files that have one beside them
+    from assur.model.kernels.reading import names_of
+
     _seen_as_read(text, path)
     try:
         names = names_of(text, path)

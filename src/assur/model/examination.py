@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 
 from assur.errors import MechanismFileError, Problem
-from assur.model.closed_form_answers import answer_faults
 from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.file.description import description_text
 from assur.model.file.faults import Faults
@@ -53,5 +52,8 @@ def _faults_beside(path: Path, record: MechanismRecord | None, faults: Faults | 
     if form is None or record is None or faults is None:
         return ()
     known = {"signs": faults.spares(("modes",)), "scales": faults.spares(("parameters",), ("unit",))}
-    told = disagreements(record, form, path, **known)
-    return told if told or faults.told() else answer_faults(record, form, path)
+    if (told := disagreements(record, form, path, **known)) or faults.told():
+        return told
+    from assur.model.closed_form_answers import answer_faults  # recorders, for what passed so far
+
+    return answer_faults(record, form, path)

@@ -124,7 +124,7 @@ def test_ctrl_c_leaves_what_the_search_met(unrecognised, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(assemblies, "solved_by_monodromy", interrupted)
+    monkeypatch.setattr(module, "solved_by_monodromy", interrupted)
     record = load_record("planar_3rrr")
     with pytest.raises(Interrupted) as stop:
         _assembled(record, inputs_of(record, home_values(record)))

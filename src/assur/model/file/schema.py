@@ -122,7 +122,7 @@ class ActuatorEntry(Entry):
     force: Number | None = None
     speed: Number | None = None
     rotor: Number = 0.0
-    friction: FrictionEntry = FrictionEntry()
+    friction: FrictionEntry = FrictionEntry.model_construct()
     gear: GearEntry | None = None
 
 
@@ -184,7 +184,7 @@ class CylindricalEntry(AxialEntry):
     """C: the child slides along the axis and turns about it."""
 
     type: Literal["cylindrical"]
-    limits: CylindricalLimits = CylindricalLimits()
+    limits: CylindricalLimits = CylindricalLimits.model_construct()
 
 
 class PlanarLimits(Entry):
@@ -199,7 +199,7 @@ class PlanarEntry(AxialEntry):
     """E: the child slides in the plane across the axis and turns about the axis."""
 
     type: Literal["planar"]
-    limits: PlanarLimits = PlanarLimits()
+    limits: PlanarLimits = PlanarLimits.model_construct()
 
 
 class UniversalLimits(Entry):
@@ -214,7 +214,7 @@ class UniversalEntry(JointEntry):
 
     type: Literal["universal"]
     axes: TwoAxes
-    limits: UniversalLimits = UniversalLimits()
+    limits: UniversalLimits = UniversalLimits.model_construct()
 
 
 class Cone(Entry):
@@ -269,7 +269,7 @@ class InputEntry(Entry):
 class InputTable(BaseModel):
     """`order`, and an entry for each input under the name of its joint."""
 
-    model_config = ConfigDict(extra="allow", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(extra="allow", frozen=True, arbitrary_types_allowed=True, defer_build=True)
     __pydantic_extra__: dict[str, InputEntry]
 
     order: tuple[str, ...] | None = None
@@ -324,7 +324,7 @@ class ModesEntry(Entry):
 
     working: dict[PlainName, Value] = {}
     assembly: dict[PlainName, Value] = {}
-    default: DefaultModes = DefaultModes()
+    default: DefaultModes = DefaultModes.model_construct()
 
 
 class WorkspaceEntry(Entry):
@@ -373,13 +373,13 @@ class FileEntry(Entry):
     links: dict[LinkName, LinkEntry] = {}
     joints: dict[Name, AnyJoint] = {}
     limbs: dict[Name, LimbEntry] = {}
-    inputs: InputTable = Field(default_factory=lambda: InputTable())
+    inputs: InputTable = Field(default_factory=InputTable.model_construct)
     generalised: dict[Name, GeneralisedEntry] = {}
     chains: dict[Name, ChainEntry] = {}
     angles: dict[Name, str] = {}
     points: dict[Name, PointEntry] = {}
-    modes: ModesEntry = ModesEntry()
-    workspace: WorkspaceEntry = WorkspaceEntry()
+    modes: ModesEntry = ModesEntry.model_construct()
+    workspace: WorkspaceEntry = WorkspaceEntry.model_construct()
     home: dict[str, HomeValue] = {}
     materials: dict[PlainName, MaterialEntry] = {}
     profiles: dict[PlainName, ProfileEntry] = {}
