@@ -6,14 +6,15 @@ So a long tape over arrays stays in the processor's cache, and its text short.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from assur.numerics.recording.tape import Operation, Tape
 
 
-@dataclass(frozen=True)
-class Assignment:
+class Assignment(NamedTuple):
     """One statement: an operation on numbers in registers, whose result goes into a register.
+
+    One is made for every operation, thousands for a program.
 
     Attributes:
         entry: of the tape.
@@ -46,11 +47,14 @@ def assignments(tape: Tape, kept: Collection[int] = ()) -> Iterator[Assignment]:
     last |= dict.fromkeys(kept, len(tape.operations))
     register, free, given = dict[int, int](), list[int](), {"varying": 0, "uniform": 0}
     for k, item in enumerate(tape.operations):
-        arguments = tuple(register[argument] for argument in item.arguments)
-        free += [register.pop(argument) for argument in dict.fromkeys(item.arguments) if last[argument] == k]
-        place = given.get(item.name, 0)
-        if item.name in given:
-            given[item.name] += 1
+        name, taken, _ = item
+        arguments = tuple([register[argument] for argument in taken])
+        for argument in dict.fromkeys(taken):
+            if last[argument] == k:
+                free.append(register.pop(argument))
+        place = given.get(name, 0)
+        if name in given:
+            given[name] += 1
         if k not in last:
             continue
         register[k] = free.pop() if free else len(register)

@@ -34,7 +34,11 @@ AT_ONCE = 256
 """Elements that machine code works on at a time."""
 REPAID = 1_000_000_000
 """Elements times operations after which machine code is loaded: by NumPy they take about a second."""
-TEXT = {"+": "{} + {}", "-": "{} - {}", "*": "{} * {}", "/": "{} / {}", "negative": "-{}", "root": "root({})"}
+TEXT = {
+    **{name: f"    v%d = v%d {name} v%d" for name in "+-*/"},
+    "negative": "    v%d = -v%d",
+    "root": "    v%d = root(v%d)",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,16 +153,14 @@ def lines(tape: Tape) -> list[str]:
     """
     text = ["def run(varying, uniform, root):"]
     register: dict[int, int] = {}
-    for item in assignments(tape, tape.outputs.values()):
-        operation = item.operation
+    for entry, operation, place, arguments, given in assignments(tape, tape.outputs.values()):
         if operation.name in ("varying", "uniform"):
-            value = f"{operation.name}[{item.given}]"
+            text.append(f"    v{place} = {operation.name}[{given}]")
         elif operation.name == "number":
-            value = repr(operation.number)
+            text.append(f"    v{place} = {operation.number!r}")
         else:
-            value = TEXT[operation.name].format(*(f"v{k}" for k in item.arguments))
-        register[item.entry] = item.register
-        text.append(f"    v{item.register} = {value}")
+            text.append(TEXT[operation.name] % (place, *arguments))
+        register[entry] = place
     return [*text, f"    return [{', '.join(f'v{register[k]}' for k in tape.outputs.values())}]"]
 
 

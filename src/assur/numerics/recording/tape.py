@@ -251,11 +251,14 @@ def pruned(
             needed.update(operations[k].arguments)
     kept = [k for k, operation in enumerate(operations) if k in needed or operation.name in ("varying", "uniform")]
     place = {k: new for new, k in enumerate(kept)}
-    moved = tuple(
-        Operation(operations[k].name, tuple(place[a] for a in operations[k].arguments), operations[k].number)
-        for k in kept
+    return Tape(
+        _moved([operations[k] for k in kept], place), varying, uniform, {name: place[k] for name, k in outputs.items()}
     )
-    return Tape(moved, varying, uniform, {name: place[k] for name, k in outputs.items()})
+
+
+def _moved(operations: Sequence[Operation], place: Mapping[int, int]) -> tuple[Operation, ...]:
+    """Operations whose arguments have gone to other places."""
+    return tuple([Operation(name, tuple([place[k] for k in own]), number) for name, own, number in operations])
 
 
 def without_unused(tape: Tape) -> tuple[Tape, tuple[int, ...]]:
@@ -273,9 +276,6 @@ def without_unused(tape: Tape) -> tuple[Tape, tuple[int, ...]]:
     dropped = {k for k in given if k not in used}
     kept = [k for k in range(len(tape.operations)) if k not in dropped]
     new = {k: place for place, k in enumerate(kept)}
-    operations = tuple(
-        Operation(operation.name, tuple(new[argument] for argument in operation.arguments), operation.number)
-        for operation in (tape.operations[k] for k in kept)
-    )
+    operations = _moved([tape.operations[k] for k in kept], new) if dropped else tape.operations
     outputs = {name: new[k] for name, k in tape.outputs.items()}
     return Tape(operations, tuple(tape.varying[place] for place in places), tape.uniform, outputs), places
