@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -133,27 +133,17 @@ class PositionQuestion:
             return [None]
         if has_quaternion(self.record.platform.pose):
             return [rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))]
-        if named.keys().isdisjoint(ANGLES[1:]) and self._upright:
-            first = [named["phi"] - rotations.to_angles(way)[0] for way in self._upright]
-            upright = zip(first, self._upright, strict=True)
+        if named.keys().isdisjoint(ANGLES[1:]) and _upright(self.record):
+            first = [named["phi"] - rotations.to_angles(way)[0] for way in _upright(self.record)]
+            upright = zip(first, _upright(self.record), strict=True)
             return [rotations.from_angles(phi, np.zeros(()), np.zeros(())) @ way for phi, way in upright]
         return [rotations.from_angles(*(np.asarray(named.get(name, 0.0)) for name in ANGLES))]
-
-    @cached_property
-    def _upright(self) -> list[FloatArray]:
-        """C of each way in which the joints let the platform turn, Rot(z, psi) C; none where it turns otherwise too."""
-        try:
-            ways = turnings(self.record, {}, None, parallel=tuple(parallelograms(self.record)))
-        except NotCirclesError:
-            return []
-        platforms = [way[self.record.platform.link] for way in ways]
-        return [one.rotation for one in platforms] if all(map(_about_vertical, platforms)) else []
 
     @property
     def tilt_open(self) -> bool:
         """Whether the pose leaves angles of the platform open, which are taken as zero, and so do the joints."""
         open_angles = 0 < len({*ANGLES} & {*self.record.platform.pose}) < len(ANGLES)
-        return self.problem == "inverse" and open_angles and not self._upright
+        return self.problem == "inverse" and open_angles and not _upright(self.record)
 
     def closed(self, starts: FloatArray) -> FloatArray:
         """The starts (N, n) that are assemblies, each once, closed to rounding."""
@@ -170,6 +160,17 @@ class PositionQuestion:
         held = self.record.input_indices if self.problem == "direct" else ()
         turned, same = with_turns_of_home(self.record, joints, held)
         return turned[same][distinct(self.record, turned[same])]
+
+
+@lru_cache(maxsize=64)
+def _upright(record: MechanismRecord) -> list[FloatArray]:
+    """C of each way in which the joints let the platform turn, Rot(z, psi) C; none where it turns otherwise too."""
+    try:
+        ways = turnings(record, {}, None, parallel=tuple(parallelograms(record)))
+    except NotCirclesError:
+        return []
+    platforms = [way[record.platform.link] for way in ways]
+    return [one.rotation for one in platforms] if all(map(_about_vertical, platforms)) else []
 
 
 def _about_vertical(turning: Turning) -> bool:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from math import hypot
 
 import numpy as np
 from numpy.typing import NDArray
@@ -296,4 +297,5 @@ def _upright(axis: FloatArray) -> FloatArray:
 
 
 def _along(axis: FloatArray, other: FloatArray) -> bool:
-    return bool(np.linalg.norm(rotations.cross(axis, other)) < EXACT)
+    (a, b, c), (d, e, f) = axis.tolist(), other.tolist()  # asked thousands of times: floats are ten times as fast
+    return hypot(b * f - c * e, c * d - a * f, a * e - b * d) < EXACT

@@ -186,19 +186,22 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         "related": np.concatenate([pose, drives], axis=-2),
         "moving": np.concatenate([twists, drives], axis=-2),
     }
+    moved = {name: part @ null for name, part in parts.items()}
+    first = min(int(np.min(rank, initial=values.shape[-1])), values.shape[-1] - 1)  # columns before it are all zero
+    related_left, related, _ = np.linalg.svd(moved["related"][..., first:])
     ranks, gaps = {}, [gap]
     for name, part in parts.items():
-        sizes = np.linalg.svd(part @ null, compute_uv=False)
+        sizes = related if name == "related" else np.linalg.svd(moved[name][..., first:], compute_uv=False)
         ranks[name], gap = rank_of(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
         gaps.append(gap)
     return InstantaneousMotion(
         values=singular,
         scale=scale,
         null=null,
-        inputs=drives[..., : len(record.inputs), :] @ null,
-        pose=pose @ null,
-        twists=twists @ null,
+        inputs=moved["inputs"][..., : len(record.inputs), :],
+        pose=moved["pose"],
+        twists=moved["twists"],
         ranks=Ranks(closure=rank, freedoms=values.shape[-1] - rank, **ranks),
         gap=np.min(gaps, axis=0),
-        related_left=np.linalg.svd(parts["related"] @ null)[0],
+        related_left=related_left,
     )
