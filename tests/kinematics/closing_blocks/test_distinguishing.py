@@ -126,7 +126,7 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
     home = home_values(record)
     assert np.all(signs_of(record, problem, home[None]) == 1)
     (values,) = _solved(record, problem, home[None])
-    answer = _Solutions.of(record, values, ())
+    answer = _Solutions.of(ScrewColumns(record, values), ())
     names = signs_of(record, problem, values)
     regular = np.all(names != 0, axis=1)
     for number in np.unique(answer.solution):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closure import RANK_GAP, Assembly, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import whole_orientation
-from assur.kinematics.rates.motions import closure_values, general, general_share, motions
+from assur.kinematics.rates.motions import general, general_share, motions
 from assur.kinematics.related import closed_as_related
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
@@ -68,10 +69,9 @@ def _sound(record: MechanismRecord, known: FloatArray, closed: Assembly) -> Floa
     """Known assemblies (K, n), home first, and those that close to all digits, are regular and as about home."""
     sound = closed.residual <= TO_ALL_DIGITS * characteristic_length(record)
     values = np.concatenate([known, closed.values[sound]])
-    sizes = closure_values(record, values)
-    least = sizes[:, int(general(record).closure) - 1] / sizes[:, 0]
+    usual, at = general(record), motions(record, values, RANK_GAP)
+    least, ranks = at.values[:, int(usual.closure) - 1] / at.values[:, 0], at.ranks
     regular = least > NEAR_SINGULAR * general_share(record)
-    usual, ranks = general(record), motions(record, values, RANK_GAP).ranks
     moving = ranks.freedoms >= len(record.inputs)
     regular &= (ranks.inputs >= usual.inputs) & (ranks.pose >= usual.pose)
     regular[0] = True
@@ -119,6 +119,20 @@ class ScrewColumns:
         """The first of these assemblies."""
         return self if len(self.values) <= FEW else ScrewColumns(self.record, self.values[:FEW], self.platform)
 
+    def rows(self, own: NDArray[np.bool_]) -> ScrewColumns:
+        """Those of some of the assemblies (N,), with the shares that are known of them."""
+        part = ScrewColumns(self.record, self.values[own], self.platform)
+        part.shares.update({sign: values[own] for sign, values in self.shares.items()})
+        return part
+
+    @classmethod
+    def together(cls, parts: Sequence[ScrewColumns]) -> ScrewColumns:
+        """Those of the assemblies of several, with the shares that are known of all."""
+        whole = cls(parts[0].record, np.concatenate([part.values for part in parts]))
+        known = [sign for sign in parts[0].shares if all(sign in part.shares for part in parts)]
+        whole.shares.update({sign: np.concatenate([part.shares[sign] for part in parts]) for sign in known})
+        return whole
+
     @cached_property
     def in_base(self) -> FloatArray:
         """The columns (N, 6, c) in the base frame: angular velocity, velocity at the base's origin."""
@@ -138,7 +152,7 @@ class ScrewColumns:
             turned = np.swapaxes(np.broadcast_to(rotation, (len(self.values), 3, 3)), -1, -2)
             shift = np.broadcast_to(origin / characteristic_length(self.record), (len(self.values), 3))
             angular, velocity = self.in_base[:, :3], self.in_base[:, 3:]
-            moved = velocity + np.cross(angular, shift[:, :, None], axisa=1, axisb=1, axisc=1)
+            moved = velocity - _about(shift) @ angular
             self._seen[link] = np.concatenate([turned @ angular, turned @ moved], axis=1)
         return self._seen[link]
 
@@ -175,8 +189,13 @@ class ScrewColumns:
         return frames(self.record, self.values)
 
     @cached_property
-    def widths(self) -> dict[tuple[str, tuple[int, ...]], int]:
-        """Link, columns -> dimension of the space that these span seen from there, of those that were asked for."""
+    def widths(self) -> dict[tuple[tuple[str, ...], tuple[int, ...]], Mapping[str, int]]:
+        """Loop, columns -> dimension of the space that these span seen from each link, of those that were asked for."""
+        return {}
+
+    @cached_property
+    def signs(self) -> dict[object, Any]:
+        """Block and rates -> its sign, or None, of those that were asked for."""
         return {}
 
     @cached_property

@@ -23,7 +23,7 @@ from assur.kinematics.closing_blocks.chains import nodes
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.folds import differing_at_folds
 from assur.kinematics.closing_blocks.namesakes import namesakes
-from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors
+from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors, screws_apart
 from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.closing_blocks.triangular import triangular_factors
 from assur.kinematics.closure import assemble
@@ -107,15 +107,15 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     record = with_ball_ends(record)
     ordered = sorted_by_name(record)
     known = factors(ordered, problem)
-    solved = _solved(ordered, problem, _targets(ordered, known))
-    compared = _compared(ordered, solved, known)
+    solved = [ScrewColumns(ordered, values) for values in _solved(ordered, problem, _targets(ordered, known))]
+    compared = _compared(solved, known)
     telling, told = len(compared[1]), bool(np.all(np.any(compared[2], axis=1)))
-    more = triangular_factors(known, ScrewColumns(ordered, assemblies_by_chance(ordered)), problem)
+    more = triangular_factors(known, screws_apart(ordered), problem)
     finer = [*known, *more]
-    signs, order = _named(ordered, problem, finer, _compared(ordered, solved, finer) if more else compared, telling)
+    signs, order = _named(ordered, problem, finer, _compared(solved, finer) if more else compared, telling)
     if more and (not told or order[-1:] >= [telling]):
         finer.sort(key=lambda sign: len(sign.joints))
-        signs, order = _named(ordered, problem, finer, _compared(ordered, solved, finer), len(finer))
+        signs, order = _named(ordered, problem, finer, _compared(solved, finer), len(finer))
     return tuple(ModeSign(tuple(_in_file_order(own, record) for own in signs[place].factors)) for place in order)
 
 
@@ -126,7 +126,7 @@ def _named(
     answers, joined, apart = compared
     apart = np.where(np.arange(len(joined)) < telling, apart, False)
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
-    near = ScrewColumns(record, np.concatenate([assemblies_by_chance(record), *(own.values for own in answers)]))
+    near = ScrewColumns.together([screws_apart(record), *(own.screws for own in answers)])
     last = [problem == "direct" and flat for flat in _flat_loops(known, joined, near)]
     order = [*_separating(apart.T, last)]
     given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(record)]
@@ -150,17 +150,16 @@ def _in_file_order(factor: Factor, record: MechanismRecord) -> Factor:
 class _Solutions:
     """Solutions of one problem by chance: assemblies (N, n), which (N,) of them each is, and its signs (N, s)."""
 
-    values: FloatArray
+    screws: ScrewColumns
     solution: IntArray
     signs: SignArray
 
     @classmethod
-    def of(cls, record: MechanismRecord, values: FloatArray, known: Sequence[Factor]) -> _Solutions:
+    def of(cls, screws: ScrewColumns, known: Sequence[Factor]) -> _Solutions:
         """Those that assemblies (N, n) are."""
-        solution = numbered(record, values)
-        signs = factor_signs(known, ScrewColumns(record, values))
+        signs = factor_signs(known, screws)
         regular = np.all(signs != 0, axis=1)
-        return cls(values[regular], solution[regular], signs[regular])
+        return cls(screws.rows(regular), numbered(screws.record, screws.values)[regular], signs[regular])
 
     @property
     def alike(self) -> NDArray[np.bool_]:
@@ -180,9 +179,9 @@ class _Solutions:
 _Compared = tuple[list[_Solutions], list[list[int]], NDArray[np.bool_]]
 
 
-def _compared(record: MechanismRecord, solved: Sequence[FloatArray], known: Sequence[Factor]) -> _Compared:
+def _compared(solved: Sequence[ScrewColumns], known: Sequence[Factor]) -> _Compared:
     """The solutions of each problem, products of factors that name them, and which of these differ in each pair."""
-    answers = [_Solutions.of(record, values, known) for values in solved]
+    answers = [_Solutions.of(screws, known) for screws in solved]
     joined = vanishing_sums(np.concatenate([answer.alike for answer in answers]).T)
     return answers, joined, np.concatenate([answer.apart(joined) for answer in answers])
 
@@ -193,8 +192,7 @@ def _targets(record: MechanismRecord, known: Sequence[Factor]) -> FloatArray:
     A singular home is none: solutions merge there, and rounding decides their signs.
     """
     values = assemblies_by_chance(record)
-    home = ScrewColumns(record, values[:1])
-    if len(values) > 1 and not all(factor.signs(home)[0] for factor in known):
+    if len(values) > 1 and not all(factor.signs(screws_apart(record))[0] for factor in known):
         values = values[1:]
     return values[:: -(-len(values) // PROBLEMS)]
 

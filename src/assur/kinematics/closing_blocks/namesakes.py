@@ -73,9 +73,8 @@ def _given(record: MechanismRecord, problem: Problem, values: FloatArray) -> Flo
 
 def _pairs(signs: SignArray, given: FloatArray, telling: Sequence[int]) -> tuple[IntArray, IntArray]:
     """Rows and rows of signs (N, s) between which no sign that tells differs, but another does; near problems first."""
-    first, second = np.triu_indices(len(signs), 1)
-    alike = np.all(signs[first][:, [*telling]] == signs[second][:, [*telling]], axis=1)
-    first, second = first[alike], second[alike]
+    named = np.unique(signs[:, [*telling]], axis=0, return_inverse=True)[1].reshape(-1)
+    first, second = np.nonzero(np.triu(named[:, None] == named, 1))
     order = np.argsort(np.linalg.norm(given[first] - given[second], axis=1), kind="stable")
     unlike = signs[first[order]] != signs[second[order]]
     kept = np.unique([order[row] for column in unlike.T for row in np.flatnonzero(column)[:MOST_PAIRS]]).astype(int)

@@ -119,21 +119,24 @@ def factors(record: MechanismRecord, problem: Problem) -> tuple[Factor, ...]:
     >>> ('A2', 'B2', 'P') in [factor.joints for factor in factors(load_record("fivebar"), "inverse")]
     True
     """
-    screws = _apart(record)
-    signs: list[Factor] = [*_of_no_problem(record), *_block_signs(record, problem, screws)]
+    screws = screws_apart(record)
+    signs = dict.fromkeys([*_of_no_problem(record), *_block_signs(record, problem, screws)])
     return tuple(sorted(signs, key=lambda sign: len(sign.joints)))
 
 
 @lru_cache(maxsize=8)
 def _of_no_problem(record: MechanismRecord) -> tuple[Factor, ...]:
     """Signs that hold whichever problem is asked: those of strokes, and of loops that move by themselves."""
-    screws = _apart(record)
+    screws = screws_apart(record)
     return (*stroke_signs(screws), *_loop_signs(screws))
 
 
 @lru_cache(maxsize=8)
-def _apart(record: MechanismRecord) -> ScrewColumns:
-    """The assemblies in which no two balls meet that are apart at home: a rod between them would have no line."""
+def screws_apart(record: MechanismRecord) -> ScrewColumns:
+    """Assemblies by chance, home first, without those in which balls meet that are apart at home.
+
+    A rod between them would have no line.
+    """
     screws = ScrewColumns(record, assemblies_by_chance(record))
     balls = [screws.centre(name) for name, joint in screws.record.joints.items() if joint.type.ball]
     gaps = [np.linalg.norm(second - first, axis=1) for first, second in combinations(balls, 2)]
@@ -263,8 +266,19 @@ def _directions(rows: FloatArray) -> list[FloatArray]:
 
 
 def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = None) -> BlockSign | None:
-    """A block's sign, at rates of any kind or in the span (k, d) of some; None where its screws span no one space."""
+    """A block's sign, at rates of any kind or in the span (k, d) of some; None where its screws span no one space.
+
+    Parts that close with one link held often do with another one, and in the other problem: each is looked at once.
+    """
     rates = np.eye(len(block.columns)) if rates is None else rates
+    question = block, rates.shape, rates.tobytes()
+    if question not in screws.signs:
+        screws.signs[question] = _sign_at(block, screws, rates)
+    sign: BlockSign | None = screws.signs[question]
+    return sign
+
+
+def _sign_at(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray) -> BlockSign | None:
     if not rates.shape[1] or (screws.few is not screws and _sign(block, screws.few, rates) is None):
         return None  # what does not span one space in a few assemblies does not in all
     links = tuple(steadiest_link(block, number, screws) for number in range(len(block.loops)))
@@ -279,14 +293,28 @@ def _sign(block: ClosingBlock, screws: ScrewColumns, rates: FloatArray | None = 
     for spins in combinations(block.spins, spinning):
         trial = BlockSign(replace(block, spins=spins), links, rates, basis, 1.0)
         matrices = trial.matrices(screws)
-        values = np.linalg.det(matrices)
-        size = float(np.max(np.abs(values)))
         if any(  # in a few of them mostly: the others are seldom asked
             np.max(np.linalg.matrix_rank(own, tol=SMALL), initial=0) == rates.shape[1]
             for own in (matrices[:FEW], matrices[FEW:])
         ):
-            return replace(trial, size=-size if values[0] < -MERGED * size else size)
+            values = np.linalg.det(matrices)
+            sign = replace(trial, size=size_of(values))
+            screws.shares[sign] = values / sign.size
+            return sign
     return None
+
+
+def size_of(values: FloatArray) -> float:
+    """The largest of determinants (N,), home's first; negative where home would read minus.
+
+    Where home is singular the first assembly that is not decides, since a basis has no sense of its own.
+
+    >>> size_of(np.array([-1.0, 2.0])), size_of(np.array([0.0, 2.0]))
+    (-2.0, 2.0)
+    """
+    size = float(np.max(np.abs(values)))
+    first = values[np.argmax(np.abs(values) > MERGED * size)]
+    return -size if first < 0.0 else size
 
 
 def _motion_rates(block: ClosingBlock, screws: ScrewColumns, still: int | None = None) -> FloatArray:

@@ -41,7 +41,7 @@ def in_narrow_loops(block: ClosingBlock, screws: ScrewColumns) -> ClosingBlock:
         if all(abs(own) < 2 for own in joined.values()):
             every.append({name: own for name, own in joined.items() if own})
     whole = replace(block, loops=tuple(every))
-    widths = [_width(whole, number, steadiest_link(whole, number, screws), screws) for number in range(len(every))]
+    widths = [min(_widths(whole, number, screws).values()) for number in range(len(every))]
     names = [*dict.fromkeys(block.owners)]
     chosen: list[Mapping[str, int]] = []
     for number in sorted(range(len(every)), key=lambda number: widths[number]):
@@ -51,13 +51,16 @@ def in_narrow_loops(block: ClosingBlock, screws: ScrewColumns) -> ClosingBlock:
     return replace(block, loops=tuple(chosen))
 
 
-def _width(block: ClosingBlock, number: int, link: str, screws: ScrewColumns) -> int:
-    """Dimension of the space that the screws of a loop span, seen from a link."""
-    loop = block.loops[number]
+def _widths(block: ClosingBlock, number: int, screws: ScrewColumns) -> Mapping[str, int]:
+    """Dimension of the space that the screws of a loop span, seen from each link of it; the base before others."""
+    record, loop = screws.record, block.loops[number]
     own = tuple(k for k, owner in zip(block.columns, block.owners, strict=True) if owner in loop)
-    if (link, own) not in screws.widths:
-        screws.widths[link, own] = int(span(screws.seen_from(link)[:, :, list(own)]).shape[1])
-    return screws.widths[link, own]
+    question = tuple(loop), own
+    if question not in screws.widths:
+        joints = [record.joints[name] for name in loop if name in record.joints]
+        links = dict.fromkeys([record.base, *(link for joint in joints for link in (joint.parent, joint.child))])
+        screws.widths[question] = {link: span(screws.seen_from(link)[:, :, [*own]]).shape[1] for link in links}
+    return screws.widths[question]
 
 
 def steadiest_link(block: ClosingBlock, number: int, screws: ScrewColumns) -> str:
@@ -71,11 +74,8 @@ def steadiest_link(block: ClosingBlock, number: int, screws: ScrewColumns) -> st
     >>> steadiest_link(block, 0, ScrewColumns(record, assemblies_by_chance(record)))
     'base'
     """
-    record, loop = screws.record, block.loops[number]
-    joints = [record.joints[name] for name in loop if name in record.joints]
-    links = dict.fromkeys([record.base, *(link for joint in joints for link in (joint.parent, joint.child))])
-    spans = {link: _width(block, number, link, screws) for link in links}
-    return min(spans, key=lambda link: spans[link])
+    widths = _widths(block, number, screws)
+    return min(widths, key=lambda link: widths[link])
 
 
 def span(matrices: FloatArray) -> FloatArray:
@@ -84,5 +84,6 @@ def span(matrices: FloatArray) -> FloatArray:
     >>> span(np.array([[[1.0], [0.0], [0.0]], [[0.0], [2.0], [0.0]]])).shape
     (3, 2)
     """
-    weights, basis = np.linalg.eigh(np.einsum("nij,nkj->ik", matrices, matrices))
+    columns = np.moveaxis(matrices, 1, 0).reshape(matrices.shape[1], -1)
+    weights, basis = np.linalg.eigh(columns @ columns.T)
     return np.asarray(basis[:, weights > SAME_SPACE**2 * np.max(weights, initial=0.0)])

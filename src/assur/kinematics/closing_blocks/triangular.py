@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from assur.kinematics.closing_blocks.blocks import SMALL, standing_links
 from assur.kinematics.closing_blocks.columns import ScrewColumns
-from assur.kinematics.closing_blocks.signs import BlockSign
+from assur.kinematics.closing_blocks.signs import BlockSign, size_of
 from assur.kinematics.closing_blocks.spaces import span
-from assur.kinematics.closing_blocks.strokes import MERGED
 from assur.kinematics.modes import Problem
 
 FloatArray = NDArray[np.float64]
@@ -119,9 +118,7 @@ def _at_rates(sign: BlockSign, rates: FloatArray) -> BlockSign:
 
 def _with_home(sign: BlockSign, screws: ScrewColumns) -> BlockSign:
     """With its size, so that home reads +."""
-    values = np.linalg.det(sign.matrices(screws))
-    size = float(np.max(np.abs(values)))
-    return replace(sign, size=-size if values[0] < -MERGED * size else size)
+    return replace(sign, size=size_of(np.linalg.det(sign.matrices(screws))))
 
 
 def _senses(sign: BlockSign, screws: ScrewColumns) -> bytes:
