@@ -6,6 +6,7 @@ What reads and runs it is loaded inside, where Ctrl-C is watched for already.
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -19,6 +20,10 @@ LINEAR_ALGEBRA = ("OPENBLAS_NUM_THREADS", "1")
 """Threads of the linear algebra, unless the user says otherwise: matrices of mechanisms are so small that several of
 them only wait for each other, which made a search of assemblies three times as long."""
 
+OBJECTS = 50_000
+"""Objects that are made before Python looks for cycles among them, 700 by default: modules and recorded programs are
+hundreds of thousands, none of them garbage, and looking at them takes 4 % of the first command on a file."""
+
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command line (that of the process where none is given) and return its exit code."""
@@ -26,6 +31,7 @@ def main(words: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # absent where a test took its place
     if words is None:  # a process of our own, before NumPy is loaded
         os.environ.setdefault(*LINEAR_ALGEBRA)
+        gc.set_threshold(OBJECTS)
         words = sys.argv[1:]
     debug, json = "--debug" in words, "--json" in words
     with interruption.watched():
