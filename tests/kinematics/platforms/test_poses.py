@@ -80,3 +80,8 @@ def test_linear_forms_alone_are_enough_for_a_known_pose():
     linear = np.linalg.svd(soma)[2][1:]
     solved = poses.poses_under(Conditions(linear, np.zeros((0, len(PAIRS)))), 2.0)
     assert np.allclose(solved.frames[0][1], 2.0 * place, rtol=0, atol=1e-12)
+
+
+def test_as_many_linear_forms_as_coordinates_leave_no_pose():
+    none = poses.poses_under(Conditions(np.eye(SIZE), np.zeros((0, len(PAIRS)))), 1.0)
+    assert (none.complex, none.frames, none.sure) == (0, (), True)

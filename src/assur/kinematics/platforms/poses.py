@@ -98,10 +98,10 @@ def poses_under(conditions: Conditions, size: float) -> Poses | None:
     40
     """
     chart = _chart(conditions.linear)
-    forms = _restricted(np.concatenate([conditions.quadrics, STUDY[None]]), chart)
     free = chart.shape[1] - 1
     if free < 0:
         return Poses((), np.zeros((0, SIZE), dtype=complex), 0, 0, 0)
+    forms = _restricted(np.concatenate([conditions.quadrics, STUDY[None]]), chart)
     if len(forms) < free:
         return None
     known: list[Poses] = []
