@@ -8,11 +8,12 @@ import pytest
 
 from assur.cli.main import main
 from assur.joint_graph.frames import frames
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
-from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, distinguishing_signs
-from assur.kinematics.closure import assemble, closure_jacobian
+from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, _solving, distinguishing_signs
+from assur.kinematics.closure import assemble, closure_error, closure_jacobian
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import lettered, mode_texts
 from assur.kinematics.named_signs import named_signs
@@ -22,6 +23,7 @@ from assur.kinematics.position import direct, inverse
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
 from assur.model.registry import load_record
+from assur.numerics.rotations import about_axis, from_vector, to_vector
 from regular_walks import changes
 
 CROSSED = 0.01
@@ -133,6 +135,47 @@ def test_home_reads_plus_and_what_looks_alike_bears_one_name(name, problem):
         assert len(np.unique(names[regular & (answer.solution == number)], axis=0)) <= 1
 
 
+def test_limbs_that_close_by_themselves_stand_in_all_their_ways_together_however_few_are_met():
+    """Of long limbs few starts close all at once: two assemblies are met here, of which each limb has its own way."""
+    record = load_record("gough_stewart")
+    home = home_values(record)
+    asking, answers = _solving(record, "inverse", home), []
+    next(asking)
+    met = np.stack([home, home + 1.0])
+    while not answers:
+        try:
+            asking.send(met)
+            met = met[:0]
+        except StopIteration as end:
+            answers.append(end.value)
+    assert len(np.unique(answers[0], axis=0)) > 2**6 / 2
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("own", ["6-HUS"], indirect=True)
+def test_half_a_turn_of_any_rod_about_its_line_leaves_the_name(own):
+    """Each has a universal joint at one end: both ways in which it stands look alike, whichever the others' are."""
+    home, slices = home_values(own), joint_graph(own).slices
+    rows = []
+    for limb in own.chains.values():
+        middle, last = limb.serial[1:]
+        row = home.copy()
+        row[slices[middle]] = [np.pi, np.pi] + home[slices[middle]] * [1.0, -1.0]
+        before, after = (_turned_by(own.joints[middle], values[slices[middle]]) for values in (home, row))
+        row[slices[last]] = to_vector(after.T @ before @ from_vector(home[slices[last]]))
+        rows.append(row)
+    turned = np.array(rows)
+    assert np.max(closure_error(own, turned)) < 1e-6
+    assert np.allclose(pose_of(own, turned), pose_of(own, home), rtol=0, atol=1e-6)
+    assert np.all(signs_of(own, "inverse", turned) == 1)
+    assert len(distinguishing_signs(own, "inverse")) == 6
+
+
+def _turned_by(joint, values):
+    """Orientation (3, 3) of a universal joint's child in its parent."""
+    return about_axis(joint.axes[0], values[0]) @ about_axis(joint.axes[1], values[1])
+
+
 def test_where_no_solution_is_regular_nothing_differs():
     """Some factor may vanish at every solution that is met; the answer then has no names, but is one."""
     nothing = _Solutions(np.zeros((0, 5)), np.zeros(0, dtype=int), np.zeros((0, 3), dtype=np.int8))
@@ -189,6 +232,7 @@ OWN = {
     "a cylinder and hinges": ["--chain", "C[z] R[x] R[x]", "--chain", "P[y] R[x] R[x]"],
     "slides on cranks": ["--limb", "R[z] R[z] P[x]", "--count", "3"],
     "slides and universals": ["--limb", "P[z] U U", "--count", "3"],
+    "6-HUS": ["--limb", "H[z] U S", "--count", "6"],
 }
 SHORT = ["six bars", "2T1R hybrid", "hybrid on a ball", "slides on cranks"]
 

@@ -50,8 +50,8 @@ ROUNDS = 2
 """How often more starts are made where few of them lead to an assembly."""
 
 MOST_STEPS = 40
-"""Of one start. Sixteen problems of platforms and linkages lost one start in fifteen to it, none of them a solution;
-in rods on balls, where most starts lead nowhere, half the time went into steps beyond it."""
+"""Of one start. Platforms and linkages lose one start in fifteen to it, none of them a solution; of rods on balls half
+the time goes into steps beyond it, as most starts lead nowhere."""
 
 MOST = 0.9
 """Share of the starts that lead to an assembly before the others are left: these take half as many steps again."""
@@ -229,18 +229,17 @@ def _solving(
     rng = np.random.default_rng(0)
     values = yield np.concatenate([target[None], by_chance(record, AT_ONCE, rng)])
     limbs = _limbs_apart(record) if problem == "inverse" and not open_freedoms(record) else []
-    if len(limbs) > 1 and len(values) >= STARTS // 4:
-        return _exchanged(values, limbs, rng)
     for _ in range(AT_ONCE, STARTS, AT_ONCE):
-        if len(values) >= max(STARTS // 4, MET * (1 + int(np.max(numbered(record, values), initial=0)))):
-            return values
+        solutions = 1 if len(limbs) > 1 else 1 + int(np.max(numbered(record, values), initial=0))
+        if len(values) >= max(STARTS // 4, MET * solutions):
+            break
         values = np.concatenate([values, (yield by_chance(record, AT_ONCE, rng))])
     for _ in range(ROUNDS):
         if not 0 < len(values) < STARTS // 4:
             break
         begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
         values = np.concatenate([values, (yield begun)])
-    return values
+    return _exchanged(values, limbs, rng) if len(limbs) > 1 else values
 
 
 def _limbs_apart(record: MechanismRecord) -> list[list[int]]:
