@@ -96,6 +96,10 @@ CASES: dict[str, tuple[str, list[tuple[str, str]], list[str]]] = {
         FOUR, [('["rocker", 0, 0]', '["rocker", 0, 3.5]')],
         [f"23: home: the loop through A, B, C, D does not close from home: a gap of 3.5 mm remains; {NEAR}",
          "? nor from 96 other starts, so a dimension or an axis is at fault"]),
+    "a loop without the platform": (
+        TWO, [('child_at = ["rocker", 0, 0]', 'child_at = ["rocker", 0, 3.5]')],
+        [f"24: home: the loop through A, B, C, D does not close from home: a gap of 3.5 mm remains; {NEAR}",
+         "? nor from 96 other starts, so a dimension or an axis is at fault"]),
     "a strut that nothing can be fitted to": (
         FOUR, [*STRUT, ("child_at = [100, 0, 0]", "child_at = [190, 0, 0]")],
         [f"16: links.strut: spans 190 mm between E and F, the rest of its loop only 140 mm; {SIDE}",

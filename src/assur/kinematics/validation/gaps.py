@@ -142,11 +142,13 @@ def _alone(record: MechanismRecord, loop: JointCycle) -> tuple[MechanismRecord, 
     indices = [item.index for item in kept]
     own = {item.index: dataclasses.replace(item, index=index) for index, item in enumerate(kept)}
     driven = [item for item in record.inputs if item.coordinate.index in own]
+    base, platform = loop.links[-1], record.platform.link
     alone = dataclasses.replace(
         record,
         joints={name: joint for name, joint in record.joints.items() if name in loop.joints},
         links={name: record.links[name] for name in loop.links},
-        base=loop.links[-1],
+        base=base,
+        platform=dataclasses.replace(record.platform, link=platform if platform in loop.links else base),
         coordinates=tuple(own.values()),
         home=record.home[indices],
         inputs=tuple(dataclasses.replace(item, coordinate=own[item.coordinate.index]) for item in driven),
