@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from assur.kinematics.closing_blocks.blocks import PLATFORM, closing_groups, standing_links
+from assur.kinematics.closing_blocks.blocks import PLATFORM, _candidates, closing_groups, standing_links
+from assur.kinematics.closing_blocks.chains import FreeChain, FreeJoint
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.model.registry import load_record
 
@@ -51,3 +52,16 @@ def test_links_that_stand_still_against_each_other_are_held_alike():
     assert len(alike) == 6
     for link in alike:
         assert closing_groups(record, "direct", (link,)) == closing_groups(record, "direct", (standing[link],))
+
+
+def test_of_as_many_chains_those_of_fewer_freedoms_are_a_smaller_block():
+    """A carriage on a slide, and on a screw with its nut: held by the slide it leaves the nut to be told, not lost."""
+    nut = FreeChain(
+        ("base", "carriage"), (FreeJoint("A", ("base", "shaft"), (0,)), FreeJoint("B", ("shaft", "carriage"), (1,)))
+    )
+    slide = FreeChain(("base", "carriage"), (FreeJoint("C", ("base", "carriage"), (2,)),))
+    rod = FreeChain(
+        ("carriage", "base"), (FreeJoint("D", ("carriage", "rod"), (3,)), FreeJoint("E", ("rod", "base"), (4, 5, 6)))
+    )
+    pairs = [block.joints for block in _candidates([nut, slide, rod])][:3]
+    assert pairs == [("A", "B", "C"), ("C", "D", "E"), ("A", "B", "D", "E")]

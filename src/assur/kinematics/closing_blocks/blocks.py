@@ -224,12 +224,15 @@ def _free_columns(record: MechanismRecord, problem: Problem) -> dict[str, tuple[
 
 
 def _candidates(pieces: Sequence[FreeChain]) -> Iterator[ClosingBlock]:
-    """Connected sets of chains in which every node closes, the smaller ones first; if they are many, all at once."""
+    """Connected sets of chains in which every node closes, the smaller ones first; if they are many, all at once.
+
+    Of as many chains those of fewer freedoms are the smaller: of a slide beside a screw and its nut the slide, not both.
+    """
     numbered = [(chain, _freedoms(chain.joints)) for chain in pieces]
     for size in range(1, len(pieces) + 1):
         if comb(len(pieces), size) > MOST_SETS and size < len(pieces):
             continue
-        for rows in combinations(numbered, size):
+        for rows in sorted(combinations(numbered, size), key=lambda rows: sum(free for _, free in rows)):
             chosen, free = zip(*rows, strict=True)
             meeting = Counter(end for chain in chosen for end in chain.ends)
             loop_count = size - len(meeting) + 1  # where they are connected
