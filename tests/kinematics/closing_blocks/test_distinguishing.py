@@ -232,6 +232,7 @@ OWN = {
     "a cylinder and hinges": ["--chain", "C[z] R[x] R[x]", "--chain", "P[y] R[x] R[x]"],
     "slides on cranks": ["--limb", "R[z] R[z] P[x]", "--count", "3"],
     "slides and universals": ["--limb", "P[z] U U", "--count", "3"],
+    "ball screws": ["--limb", "{R[z]@O H[z]@O | P[z]} R[x] S"],
     "6-HUS": ["--limb", "H[z] U S", "--count", "6"],
 }
 SHORT = ["six bars", "2T1R hybrid", "hybrid on a ball", "slides on cranks"]
@@ -325,6 +326,24 @@ def test_what_moves_in_a_plane_that_turns_has_a_sign_for_either(own):
 def test_every_limb_of_rods_on_balls_has_a_sign_of_its_own(own):
     """Of starts by chance hardly one closes there; each arm is in front of its rods or behind them, four arms are."""
     assert len(distinguishing_signs(own, "inverse")) == 4
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("own", ["3UPS&UP"], indirect=True)
+def test_a_leg_that_holds_the_platforms_point_is_named_by_its_stroke_and_by_how_it_is_turned(own):
+    """Of the four ways in which the passive leg reaches a point the whole determinant tells two."""
+    solutions = inverse(own, pose_of(own, home_values(own)) + 0.01)
+    signs = signs_of(own, "inverse", solutions.joints[solutions.exists])
+    assert len(np.unique(signs, axis=0)) == len(signs) == 2**5
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("own", ["ball screws"], indirect=True)
+def test_a_leg_on_a_screw_has_a_sign_as_one_on_a_slide_has(own):
+    """Three legs, and the platform that they hold to three coordinates."""
+    signs = distinguishing_signs(own, "inverse")
+    limbs = [{name.partition(".")[0] for name in sign.joints} for sign in signs]
+    assert sorted(map(len, limbs)) == [1, 1, 1, 4]
 
 
 @pytest.mark.parametrize("own", ["cylinders"], indirect=True)

@@ -8,8 +8,10 @@ from itertools import combinations, permutations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closing_blocks.ball_ends import with_ball_ends
+from assur.kinematics.closing_blocks.blocks import PLATFORM
 from assur.kinematics.closing_blocks.by_name import sorted_by_name
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import ModeSign
@@ -39,8 +41,8 @@ def side(record: MechanismRecord, sign: ModeSign) -> str:
     leg1.B lies on the right of the line from leg1.A to leg1.C
     """
     ended = with_ball_ends(record)
-    joints = sorted(name for name in sign.joints if name in record.joints)  # no order of a file decides a word
-    if len(joints) != len(sign.joints) or len(joints) > MOST:
+    joints = sorted(sign.joints, key=lambda name: (name == PLATFORM, name))  # no order of a file decides a word
+    if len(joints) > MOST:
         return ""
     screws = ScrewColumns(ended, _assemblies(ended), sign.needs_platform(ended))
     signs = sign.signs(screws)
@@ -68,18 +70,19 @@ def _assemblies(record: MechanismRecord) -> FloatArray:
 
 def _sentences(screws: ScrewColumns, joints: list[str]) -> Iterator[tuple[FloatArray, str, str]]:
     """Values (N,), what is said where they are positive, and where they are negative; the plainest first."""
-    types = {name: screws.record.joints[name].type for name in joints}
+    types = {name: screws.record.joints[name].type for name in joints if name != PLATFORM}
     slides = [name for name, own in types.items() if own.slides and not own.turns]
     places = [name for name in joints if name not in slides]
-    hinges = [name for name in places if types[name].turns == 1]
+    hinges = [name for name in places if name in types and types[name].turns == 1]
     length = characteristic_length(screws.record)
     for slide in slides:
         for near, far in combinations(places, 2):
-            way = (screws.centre(far) - screws.centre(near)) / length
+            way = (_place(screws, far) - screws.centre(near)) / length
             value = np.einsum("ni,ni->n", way, screws.axis(slide))
-            yield value, *(f"{far} lies {word} {near} along {slide}" for word in ("ahead of", "behind"))
+            name = "the platform's point" if far == PLATFORM else far
+            yield value, *(f"{name} lies {word} {near} along {slide}" for word in ("ahead of", "behind"))
     for hinge in hinges:
-        for middle, end in permutations([name for name in places if name != hinge], 2):
+        for middle, end in permutations([name for name in places if name not in (hinge, PLATFORM)], 2):
             start, axis = screws.centre(hinge), screws.axis(hinge)
             arms = (screws.centre(end) - start) / length, (screws.centre(middle) - start) / length
             value = np.einsum("ni,ni->n", cross(*arms), axis)
@@ -91,6 +94,15 @@ def _sentences(screws: ScrewColumns, joints: list[str]) -> Iterator[tuple[FloatA
     for first, second, third in combinations(hinges, 3):
         value = np.einsum("ni,ni->n", cross(screws.axis(first), screws.axis(second)), screws.axis(third))
         yield value, *(f"the axes of {first}, {second} and {third} are {word}-handed" for word in ("right", "left"))
+
+
+def _place(screws: ScrewColumns, name: str) -> FloatArray:
+    """Point (N, 3) of a joint, or the platform's own, which follows all joints in their order."""
+    if name != PLATFORM:
+        return screws.centre(name)
+    record = screws.record
+    rotation, origin = frames(record, screws.values)[record.platform.link]
+    return np.asarray(rotation @ record.platform.point + origin)
 
 
 def _planar(screws: ScrewColumns, hinges: list[str]) -> bool:

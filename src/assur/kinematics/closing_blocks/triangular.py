@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closing_blocks.blocks import SMALL, standing_links
+from assur.kinematics.closing_blocks.blocks import PLATFORM, SMALL, standing_links
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.signs import BlockSign, size_of
 from assur.kinematics.closing_blocks.spaces import span
@@ -37,7 +37,7 @@ def triangular_factors(known: Sequence[object], screws: ScrewColumns, problem: P
     for sign in blocks:
         if sign.block.spins or not 1 < sign.rates.shape[1] <= MOST_RATES:
             continue
-        parts = [*_factors(sign, screws)]
+        parts = [factor for seen in _seen(sign, screws) for factor in _factors(seen, screws)]
         turned = (own for part in parts for link in standing for own in _seen_from(link, part, screws))
         for factor in (*parts, *(factor for own in turned for factor in _factors(own, screws))):
             if (senses := _senses(factor, screws)) not in met:
@@ -60,6 +60,18 @@ def _seen_from(link: str, sign: BlockSign, screws: ScrewColumns) -> Iterator[Blo
         ratio = (own @ values) / (values @ values)
         if abs(ratio) > SMALL and np.allclose(own, ratio * values, rtol=SMALL, atol=SMALL * np.max(np.abs(own))):
             yield replace(sign, links=links, basis=np.eye(rows.shape[1])[:, chosen])
+
+
+def _seen(sign: BlockSign, screws: ScrewColumns) -> list[BlockSign]:
+    """The sign with its loop seen from where it is, and one through a pose from any other link, too.
+
+    A point of the platform that a pose holds is a ball in the platform's own frame alone.
+    """
+    if PLATFORM not in sign.joints or sign.basis.shape != (6, 6):
+        return [sign]
+    joints = [screws.record.joints[name] for name in sign.joints if name in screws.record.joints]
+    links = dict.fromkeys([*sign.links, *(link for joint in joints for link in (joint.parent, joint.child))])
+    return [replace(sign, links=(link,), basis=np.eye(6)) for link in links]
 
 
 def _factors(sign: BlockSign, screws: ScrewColumns) -> Iterator[BlockSign]:
@@ -106,7 +118,9 @@ def _sparse(rates: FloatArray) -> FloatArray:
 
 
 def _at_rates(sign: BlockSign, rates: FloatArray) -> BlockSign:
-    """The sign at some rates, of the joints alone that move at these."""
+    """The sign at some rates, of the joints alone that move at these; a pose stands for what it leaves of its block."""
+    if PLATFORM in sign.joints:
+        return replace(sign, rates=rates)
     block, moving = sign.block, np.flatnonzero(np.any(rates != 0.0, axis=1))
     owners = tuple(block.owners[k] for k in moving)
     own = replace(
