@@ -56,9 +56,8 @@ def test_links_that_stand_still_against_each_other_are_held_alike():
 
 def test_of_as_many_chains_those_of_fewer_freedoms_are_a_smaller_block():
     """A carriage on a slide, and on a screw with its nut: held by the slide it leaves the nut to be told, not lost."""
-    nut = FreeChain(
-        ("base", "carriage"), (FreeJoint("A", ("base", "shaft"), (0,)), FreeJoint("B", ("shaft", "carriage"), (1,)))
-    )
+    shaft = FreeJoint("A", ("base", "shaft"), (0,)), FreeJoint("B", ("shaft", "carriage"), (1,))
+    nut = FreeChain(("base", "carriage"), shaft)
     slide = FreeChain(("base", "carriage"), (FreeJoint("C", ("base", "carriage"), (2,)),))
     rod = FreeChain(
         ("carriage", "base"), (FreeJoint("D", ("carriage", "rod"), (3,)), FreeJoint("E", ("rod", "base"), (4, 5, 6)))

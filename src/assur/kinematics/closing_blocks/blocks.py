@@ -226,7 +226,7 @@ def _free_columns(record: MechanismRecord, problem: Problem) -> dict[str, tuple[
 def _candidates(pieces: Sequence[FreeChain]) -> Iterator[ClosingBlock]:
     """Connected sets of chains in which every node closes, the smaller ones first; if they are many, all at once.
 
-    Of as many chains those of fewer freedoms are the smaller: of a slide beside a screw and its nut the slide, not both.
+    Of as many chains those of fewer freedoms are the smaller: of a slide beside a screw and its nut the slide.
     """
     numbered = [(chain, _freedoms(chain.joints)) for chain in pieces]
     for size in range(1, len(pieces) + 1):
