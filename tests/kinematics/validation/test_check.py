@@ -98,7 +98,7 @@ CASES: dict[str, tuple[str, list[tuple[str, str]], list[str]]] = {
          "? nor from 96 other starts, so a dimension or an axis is at fault"]),
     "a loop without the platform": (
         TWO, [('child_at = ["rocker", 0, 0]', 'child_at = ["rocker", 0, 3.5]')],
-        [f"24: home: the loop through A, B, C, D does not close from home: a gap of 3.5 mm remains; {NEAR}",
+        [f"31: home: the loop through A, B, C, D does not close from home: a gap of 3.5 mm remains; {NEAR}",
          "? nor from 96 other starts, so a dimension or an axis is at fault"]),
     "a strut that nothing can be fitted to": (
         FOUR, [*STRUT, ("child_at = [100, 0, 0]", "child_at = [190, 0, 0]")],
