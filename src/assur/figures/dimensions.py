@@ -90,11 +90,12 @@ def _arc(skeleton: Skeleton, mark: JointMark, name: str, latex: str, value: floa
 
 
 def _partner(skeleton: Skeleton, mark: JointMark) -> FloatArray | None:
-    """The other end of the part of the child that starts at a joint."""
+    """The other end of the part of the child that starts at a joint; of a plate its middle."""
     for rod in skeleton.rods:
         if rod.link == mark.joint.child and mark.joint.name in rod.ends:
             return np.asarray(rod.points[1 - rod.ends.index(mark.joint.name)])
-    return None
+    plates = [plate.points for plate in skeleton.plates if plate.link == mark.joint.child]
+    return np.asarray(plates[0].mean(axis=0)) if plates else None
 
 
 def draw_arcs(page: Canvas, view: View, arcs: list[Arc], letters: Letters) -> None:
