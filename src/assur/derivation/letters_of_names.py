@@ -6,12 +6,9 @@ import re
 from collections.abc import Mapping
 
 from assur.model.mechanism import Input
+from assur.results.latex_text import letter
 from assur.topology.latex import name as joint_latex
 
-GREEK = frozenset(
-    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi", "rho"}
-    | {"sigma", "tau", "phi", "chi", "psi", "omega"}
-)
 SHIFTED = {"^": r"\wedge", "~": r"\sim"}
 """Characters that words have and text in LaTeX does not."""
 
@@ -35,18 +32,6 @@ def joint_letter(name: str) -> str:
         return joint_latex(name)
     number, part, further = limb.groups()
     return joint_latex(part) + f"_{{{number}{',' + further if further else ''}}}"
-
-
-def letter(name: str) -> str:
-    r"""A name of a file as a letter with an index.
-
-    >>> letter("l2"), letter("wB"), letter("betaC"), letter("alpha"), letter("rise"), letter("theta_1")
-    ('l_{2}', 'w_{B}', '\\beta_{C}', '\\alpha', '\\mathrm{rise}', '\\theta_{1}')
-    """
-    match = re.fullmatch(r"([A-Za-z]+?)_?(\d+\w?)", name) or re.fullmatch(r"([a-z]+)_?([A-Z]\d*)", name)
-    stem, index = match.groups() if match else (name, "")
-    plain = f"\\{stem}" if stem in GREEK else stem if len(stem) == 1 else rf"\mathrm{{{stem.replace('_', ' ')}}}"
-    return f"{plain}_{{{index}}}" if index else plain
 
 
 def defined(name: str) -> str:

@@ -13,7 +13,7 @@ import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.joint_formulas import Pointing
-from assur.derivation.letters_of_names import input_letter, letter, plain, sign_formula
+from assur.derivation.letters_of_names import input_letter, plain, sign_formula
 from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.numeric_example import ExampleBranch, angle, example_branches
@@ -28,6 +28,7 @@ from assur.kinematics.naming import described_signs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION
 from assur.numerics.rotations import to_angles, to_quaternion
+from assur.results.latex_text import letter
 
 SIGN: Mapping[Problem, str] = {"direct": r"\epsilon", "inverse": r"\sigma"}
 DECIMALS = 4

@@ -10,7 +10,7 @@ from functools import cached_property
 import sympy
 
 from assur.derivation.formula_latex import FormulaLatex, PrintedLetter
-from assur.derivation.letters_of_names import defined, input_letter, joint_letter, kind_of, letter
+from assur.derivation.letters_of_names import defined, input_letter, joint_letter, kind_of
 from assur.derivation.phrases import direction as direction_text
 from assur.derivation.phrases import listed, words
 from assur.derivation.solution import AnalyticSolution
@@ -19,6 +19,7 @@ from assur.derivation.unknown_directions import UnknownDirection
 from assur.kinematics.home import home_values
 from assur.model.mechanism import Coordinate
 from assur.model.pose import ANGLES
+from assur.results.latex_text import letter
 
 TURNS = (r"\theta", r"\varphi", r"\psi", r"\chi", r"\omega", r"\eta", r"\zeta")
 """Letters for angles of which the file names none: one for each kind of link, its number as index."""

@@ -11,9 +11,10 @@ from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.formula_latex import BREAK, COLUMN, width, wrapped
-from assur.derivation.letters_of_names import input_letter, letter
+from assur.derivation.letters_of_names import input_letter
 from assur.derivation.written_parts import WrittenFormula
 from assur.derivation.written_solution import WrittenSolution
+from assur.results.latex_text import letter
 
 NUMBER = 8
 """Letters that the number of an equation takes."""

@@ -16,7 +16,7 @@ _SCRIPTS = r"(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9,]+(?:_[0-9])?\}))?(?:\^[0-9])?"
 _WORD = rf"\\(?:{'|'.join(sorted(GREEK))}|varphi|Pi|sin|cos)(?![A-Za-z])"
 _NAME = rf"(?:[A-Za-z0-9)|]|\\mathbf\{{[A-Za-z]\}}|{_WORD}){_SCRIPTS}"
 _BETWEEN = r"[-+=/,( ]|\\[, ]|\\(?:times|cdot|pm|det|angle|partial)(?![A-Za-z])"
-_INDEXED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])_?([A-Z0-9]\w?)")
+_INDEXED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])(?:_?([A-Z0-9]\w?)|_([a-z]))")
 _PLAIN = re.compile(rf"(?:{_NAME}|{_BETWEEN})+")
 """Sums, products and equations of letters with one index and one power, which can always be set."""
 
@@ -66,8 +66,8 @@ def formula_text(formula: str) -> str:
 
     >>> formula_text("2*d"), formula_text("l4"), formula_text("sqrt(3)*r"), formula_text("uP"), formula_text("alphaA")
     ('$2d$', '$l_{4}$', '$\\sqrt{3}\\,r$', '$u_{P}$', '$\\alpha_{A}$')
-    >>> formula_text("(h + R)*cos(30 deg)/2")
-    '$(h+R)\\,\\cos(30^{\\circ})/2$'
+    >>> formula_text("(h + R)*cos(30 deg)/2"), formula_text("l2 + C_w/2")
+    ('$(h+R)\\,\\cos(30^{\\circ})/2$', '$l_{2}+C_{w}/2$')
     """
     try:
         whole = node_latex(parse(formula).root)
@@ -85,7 +85,7 @@ def node_latex(node: Node) -> str:
             return rf"{text}^{{\circ}}" if unit == "deg" else text
         case Name(text):
             indexed = _INDEXED.fullmatch(text)
-            return label(f"{mathematics(indexed[1])}_{{{indexed[2]}}}" if indexed else "", text)
+            return label(f"{mathematics(indexed[1])}_{{{indexed[2] or indexed[3]}}}" if indexed else "", text)
         case Pi():
             return r"\pi"
         case Negative(of):

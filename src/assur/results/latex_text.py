@@ -65,6 +65,20 @@ def mathematics(latex: str) -> str:
     return "".join(_ended(known[sign]) if sign in known else sign for sign in whole)
 
 
+def letter(name: str) -> str:
+    r"""A name of a file as a letter with an index; what is none as upright words.
+
+    >>> letter("l2"), letter("wB"), letter("betaC"), letter("alpha"), letter("rise"), letter("theta_1"), letter("C_w")
+    ('l_{2}', 'w_{B}', '\\beta_{C}', '\\alpha', '\\mathrm{rise}', '\\theta_{1}', 'C_{w}')
+    """
+    patterns = r"([A-Za-z]+?)_?(\d+\w?)", r"([a-z]+)_?([A-Z]\d*)", r"([A-Za-z])_([a-z])"
+    match = next(filter(None, (re.fullmatch(pattern, name) for pattern in patterns)), None)
+    stem, index = match.groups() if match else (name, "")
+    known = stem in _GREEK.values()
+    plain = f"\\{stem}" if known else stem if len(stem) == 1 else rf"\mathrm{{{stem.replace('_', ' ')}}}"
+    return f"{plain}_{{{index}}}" if index else plain
+
+
 def _sign(sign: str) -> str:
     if sign in MATHEMATICAL:
         return f"${_ended(MATHEMATICAL[sign])}$"

@@ -10,6 +10,7 @@ from assur.kinematics.validation.check import METRES
 from assur.machine.forces.motion_formulas import MotionFormulas
 from assur.model.pose import LENGTHS
 from assur.numerics.recording.tape import Operation, Tape
+from assur.results.latex_text import letter
 
 HEAD = r"""\documentclass[10pt,a4paper]{article}
 \usepackage{amsmath}
@@ -30,7 +31,6 @@ TERMS = {
     "Forces of the actuators": "tau",
 }
 SUM, PRODUCT, ATOM = 1, 2, 3
-GREEK = ("alpha", "beta", "gamma", "delta", "theta", "phi", "psi", "eta", "mu", "rho")
 
 
 def document(formulas: MotionFormulas) -> str:
@@ -47,18 +47,6 @@ def document(formulas: MotionFormulas) -> str:
     numbers = {old: str(place) for place, old in enumerate(order, 1)}
     text = re.sub(r"(?<=\\sigma_\{)\d+", lambda old: numbers[old[0]], text)
     return HEAD + text + "\n\\end{document}\n"
-
-
-def letter(name: str) -> str:
-    r"""A name as it is written.
-
-    >>> print(letter("l12"), letter("theta1"), letter("leg"))
-    l_{12} \theta_{1} \mathrm{leg}
-    """
-    stem = name.rstrip("0123456789")
-    word, number = stem.removesuffix("_"), name[len(stem) :]
-    head = f"\\{word}" if word in GREEK else word if len(word) == 1 else rf"\mathrm{{{word.replace('_', ' ')}}}"
-    return f"{head}_{{{number}}}" if number else head
 
 
 def _lines(formulas: MotionFormulas) -> Iterator[str]:
