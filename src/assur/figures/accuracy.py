@@ -18,6 +18,7 @@ from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
 from assur.machine.accuracy.error_maps import TURNED, error_maps, toleranced
 from assur.machine.accuracy.pose_errors import PoseErrors, pose_errors_at
+from assur.results.answers.indices import MapAnswer
 from assur.workspace.index_maps import IndexMaps
 
 FloatArray = NDArray[np.float64]
@@ -53,7 +54,8 @@ def _untold(context: Context) -> str:
 def _axes(solved: PoseErrors) -> tuple[FloatArray, FloatArray]:
     """Standard deviations (3,) of the displacement along principal directions, columns (3, 3); the largest first."""
     variances, ways = np.linalg.eigh(solved.covariance[:3, :3])
-    return np.sqrt(np.maximum(variances[::-1], 0.0)), ways[:, ::-1]
+    sizes = np.sqrt(np.maximum(variances[::-1], 0.0))
+    return np.where(sizes > ROUNDED * sizes[0], sizes, 0.0), ways[:, ::-1]
 
 
 def _caption(context: Context) -> str:
@@ -106,16 +108,20 @@ def _maps(context: Context) -> IndexMaps:
     )
 
 
-def errors_drawn(context: Context, maps: IndexMaps) -> Drawing:
-    """Maps of errors, colours by decades; that of a rotation is left out where there is none."""
-    own = {
+def _shown(maps: IndexMaps) -> dict[str, MapAnswer]:
+    """All but that of a rotation where there is none."""
+    return {
         name: item for name, item in maps.maps.items() if name != TURNED or np.nanmax(item.values, initial=0.0) > 0.0
     }
-    return drawn(context, replace(maps, maps=own), by_decades=True)
+
+
+def errors_drawn(context: Context, maps: IndexMaps) -> Drawing:
+    """Maps of errors, colours by decades; that of a rotation is left out where there is none."""
+    return drawn(context, replace(maps, maps=_shown(maps)), by_decades=True)
 
 
 def _map_caption(context: Context) -> str:
-    told = "; ".join(f"${item.symbol}$: {item.meaning}" for item in _maps(context).maps.values())
+    told = "; ".join(f"${item.symbol}$: {item.meaning}" for item in _shown(_maps(context)).values())
     return (
         f"How far the tolerances of the file move the platform over one plane ({mode_words(context)}), inputs held, to"
         f" first order. {told}. Colours by decades: errors grow without bound towards parallel singularities."

@@ -157,9 +157,9 @@ def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Fig
     """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide."""
     wide, tall = plane.spans
     left, bottom, top = LEFT, 13.0, 7.0
-    page = plane.context.page
-    columns = side_by_side(page, ACROSS, LEAST)
-    cell = page / columns
+    columns = side_by_side(plane.context.page, ACROSS, LEAST)
+    cell = plane.context.page / columns
+    page = cell * min(columns, len(titles))  # as wide as its maps, which are as large as where there are more
     rows = math.ceil(len(titles) / columns)
     tallest = min(TALLEST, (HIGHEST - 5.0) / rows - bottom - top)
     scale = min((cell - left - right) / wide, tallest / tall)

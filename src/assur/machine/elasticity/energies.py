@@ -45,7 +45,7 @@ def ranked(shares: Mapping[str, float]) -> list[tuple[str, float]]:
     >>> ranked({"leg1.rod": 0.25, "leg2.rod": 0.25 + 1e-12, "arm": 0.5})
     [('arm', 0.5), ('leg1.rod', 0.25), ('leg2.rod', 0.250000000001)]
     """
-    return sorted(shares.items(), key=lambda pair: -round(pair[1], 9))
+    return sorted(shares.items(), key=lambda pair: -round(pair[1], 6))
 
 
 def energy_shares(state: Strains, moved: FloatArray) -> EnergyShares:
