@@ -212,7 +212,7 @@ CASES: list[tuple[str, str, list[str]]] = [
     ("[inputs]", '[inputs]\nR2 = { name = "q1" }\nB = { name = "q2" }',
      [f"29: inputs.B: 'B' is an input already{FIRST} 28; allowed: each joint once"]),
     ("[inputs]", "[inputs]\nB.rotation = { name = 'q' }",
-     ["28: inputs.B.rotation: unknown key; allowed here: latex, name, offset, sign, stroke",
+     ["28: inputs.B.rotation: unknown key; allowed here: latex, name, offset, offsets, sign, stroke",
       '? a name with a dot stands in quotes: "leg1.B"', "28: inputs.B.name: missing; this key must be there"]),
     ('[inputs]\nA = { name = "theta", latex = "\\\\theta", stroke = [-180, "180 deg"] }\n', "",
      ["1: inputs: missing; this must be there: a table of the actuated joints"]),

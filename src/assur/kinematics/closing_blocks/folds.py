@@ -62,6 +62,8 @@ def differing_at_folds(
     No fold is sought where each sign is a product of those with the places `telling`, in every one of the assemblies:
     then it differs as these do. Signs that the inputs decide may be among them.
     """
+    if not known:
+        return np.zeros((0, 0), dtype=bool)
     record, signs = screws.record, factor_signs(known, screws)
     regular = np.all(signs != 0, axis=1)
     chosen = np.flatnonzero(regular)[:: 1 + int(np.sum(regular)) // MOST_ENDS]

@@ -110,8 +110,19 @@ class PoseErrors(Tabulated):
     def sampled(self, count: int = COUNT, seed: int = SEED, progress: Progress | None = None) -> SampledPoses:
         """Poses of mechanisms drawn at random within the file's tolerances: `assur.machine.accuracy.sampled_poses`.
 
+        Args:
+            count: how many are drawn.
+            seed: of the generator that draws them.
+            progress: told how many are done.
+
         Errors:
             UsageError: there are no tolerances.
+
+        >>> import assur
+        >>> reached = assur.load("delta_4s").errors([0, 0, -0.9]).sampled(1000)
+        >>> low, high = reached.bounds["z"]
+        >>> reached.count, reached.assembled >= 1000, -0.901 < low < -0.9 < high < -0.899
+        (1000, True, True)
         """
         if not self.off:
             raise UsageError(f"{self.record.name} states no tolerances", hint="there is nothing to draw from")
