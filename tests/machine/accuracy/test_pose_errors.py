@@ -136,5 +136,6 @@ def test_where_there_is_nothing_to_say(zeng):
     assert fivebar.errors([0, 60]).status == Status.parallel
     far = fivebar.errors([0, 900])
     assert (far.status, far.sensitivity) == (Status.unreachable, {})
+    assert np.all(np.isnan(far.values))
     with pytest.raises(UsageError, match="2 poses"):
         zeng.record.errors([POSE, POSE])

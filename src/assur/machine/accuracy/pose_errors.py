@@ -40,7 +40,7 @@ class PoseErrors(Tabulated):
 
     Attributes:
         record: the mechanism.
-        values: (n,) joint values.
+        values: (n,) joint values; NaN where the pose is not reached.
         status: `regular`; `parallel` where the inputs do not hold the platform; `unreachable`.
         sensitivity: (6,) per unit of each copy of a dimension, and of each input; NaN where it does not assemble.
         units: what each of these is per.
@@ -165,7 +165,7 @@ def pose_errors(record: MechanismRecord, pose: ArrayLike, mode: str | None = Non
         raise UsageError(f"{len(flat)} poses", hint="errors are of one pose at a time")
     values, lost = reached_in_mode(record, flat, mode)
     if lost[0] != Status.regular:
-        return PoseErrors(record, values[0], Status(int(lost[0])), {}, {}, {}, (), {})
+        return PoseErrors(record, np.full_like(values[0], np.nan), Status(int(lost[0])), {}, {}, {}, (), {})
     return pose_errors_at(record, values[0])
 
 
