@@ -121,13 +121,17 @@ def _shown(record: Mechanism, answer: CalibrationAnswer) -> Iterable[RenderableT
     yield heading(f"{answer.mechanism}, calibration")
     yield f"{answer.measurements} measurements of {', '.join(answer.measured)}"
     yield ""
+    turned = {item.name for item in record.inputs if item.coordinate.kind == "angle"}
     rows = []
     for name, value in answer.parameters.items():
         known = record.parameters.get(name)
         other = "measuring frame" if name in FRAME else "added to the input"
         was = short(known.value) if known else other
-        rows.append((name, was, f"{value:.9g}", short(answer.sigma[name])))
-    yield table(("parameter", "was", "is", "sigma"), rows, left=("parameter",))
+        turns = name.startswith("frame.r") or name in turned
+        one = record.angle_unit if turns and not known else 1.0
+        unit = known.unit if known else record.angle if turns else record.unit
+        rows.append((name, unit, was, f"{value / one:.9g}", short(answer.sigma[name] / one)))
+    yield table(("parameter", "in", "was", "is", "sigma"), rows, left=("parameter", "in"))
     if answer.held:
         yield f"held: {', '.join(answer.held)}"
     before, after = short(answer.residual_before), short(answer.residual_after)
