@@ -21,6 +21,7 @@ WRONG = {
     "certify zeng2019 -f out.json": ("unknown option -f of assur certify", ""),
     "certify zeng2019 --kind box --zzzzzz 3": ("unknown option --zzzzzz of assur certify", ""),
     "list --set l2=1": ("unknown option --set of assur list", ""),
+    "stiffness zeng2019 --no-sheer": ("unknown option --no-sheer of assur stiffness", "did you mean --no-shear? see"),
     "follow zeng2019 --too 1,2,3": ("unknown option --too of assur follow", "did you mean --to"),
     "verify": ("FILE is missing", ""),
     "direct": ("MECHANISM is missing", ""),

@@ -43,9 +43,14 @@ def options(app: App, words: Sequence[str]) -> frozenset[str]:
     """The options of the command that the first word names, short ones and those that all commands have too."""
     found = {*app.help_flags}
     for name in command_of(app, words):
-        for argument in app[name].assemble_argument_collection():
-            found.update(part for part in argument.names if part.startswith("-"))
+        found.update(part for names in _names(app, name) for part in names if part.startswith("-"))
     return frozenset(found if command_of(app, words) else {*found, *app.version_flags})
+
+
+def _names(app: App, command: str) -> list[tuple[str, ...]]:
+    """The names of each argument of a command: flags have no opposites but those that they are given."""
+    every = app[command].assemble_argument_collection(default_parameter=app.default_parameter)
+    return [tuple(argument.names) for argument in every]
 
 
 def _unknown(known: frozenset[str], words: Sequence[str]) -> str:
@@ -61,7 +66,7 @@ def _unknown(known: frozenset[str], words: Sequence[str]) -> str:
 
 def _repeated(app: App, words: Sequence[str], name: str) -> str:
     """An option that is given twice, or by two of its names, as one and its opposite."""
-    every = (argument.names for command in words[:1] for argument in app[command].assemble_argument_collection())
+    every = (names for command in words[:1] for names in _names(app, command))
     names = next((names for names in every if name in names), (name,))
     given = dict.fromkeys(word.partition("=")[0] for word in words)
     typed = [word for word in given if word in names]
