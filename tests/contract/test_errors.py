@@ -42,6 +42,28 @@ def test_copies_that_are_off_move_the_platform_as_poses_solved_again_say(mechani
     assert np.all(left[~fits] > 1e-7 * steps[~fits])
 
 
+def test_inputs_that_bring_the_pose_back_leave_what_no_calibration_takes_away(mechanism, errors):
+    """Dimensions off one by one, the inputs corrected, poses solved again."""
+    names = [name for name in errors.uncompensated if errors.compatible(name)]
+    length, size = characteristic_length(mechanism), np.repeat([1.0, 1.0 / characteristic_length(mechanism)], 3)
+    one = np.array([np.radians(1.0) if errors.units[name] == "deg" else 1.0 for name in names])
+    steps = 1e-5 * np.array([length if errors.units[name] == mechanism.unit else 1.0 for name in names])
+    added = (np.array([errors.corrections[name] for name in names]) * (steps / one)[:, None]).T
+    above, below = (
+        moved(
+            mechanism,
+            errors.values,
+            {name: sense * row for name, row in zip(names, np.diag(steps), strict=True)},
+            {item.name: sense * row for item, row in zip(mechanism.drives, added, strict=True)},
+        )[0]
+        for sense in (1.0, -1.0)
+    )
+    again = (above - below) * (one / (2.0 * steps))[:, None] / size
+    stated = np.array([errors.uncompensated[name] for name in names]) / size
+    largest = max(np.abs(errors.sensitivity[name] / size).max() for name in names)
+    np.testing.assert_allclose(again, stated, atol=1e-7 * largest)
+
+
 def test_what_assembles_moves_it_the_same_whether_links_bend_or_not(mechanism, errors):
     """And inputs move it as the motion of the joint graph says."""
     values = errors.values

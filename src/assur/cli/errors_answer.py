@@ -66,6 +66,7 @@ def _answer(
         input_names=tuple(item.name for item in record.drives),
         sensitivity={name: tuple(plain(row)) for name, row in solved.sensitivity.items()},
         per=solved.units,
+        uncompensated={name: tuple(plain(row)) for name, row in solved.uncompensated.items()},
         compatible={name: solved.compatible(name) for name in solved.sensitivity},
         self_stress={
             name: {joint: tuple(wrench.tolist()) for joint, wrench in stress.items()}
@@ -83,6 +84,7 @@ def _answer(
         units={
             "pose": ", ".join(record.unit if name in LENGTHS else "rad" for name in record.platform.pose),
             "sensitivity": f"x, y, z in {record.unit}, rx, ry, rz in rad, per unit of the dimension or input",
+            "uncompensated": "as sensitivity",
             "self_stress": "force 1, moment m",
             "worst_case": f"{record.unit}, rad",
             "root_sum_square": f"{record.unit}, rad",
@@ -122,6 +124,7 @@ def _shown(record: Mechanism, answer: ErrorsAnswer, pose: NDArray[Any]) -> Itera
     yield from (f"note: {note}" for note in answer.notes)
     if answer.sensitivity:
         yield from _sensitivities(answer)
+        yield from _left(answer, ", ".join(record.platform.pose))
         yield from _sums(answer)
 
 
@@ -140,6 +143,18 @@ def _sensitivities(answer: ErrorsAnswer) -> Iterable[RenderableType]:
         settled = len(answer.elastic)
         if settled:
             yield f"  their numbers are where links that bend by their profiles settle ({settled} of them)"
+
+
+def _left(answer: ErrorsAnswer, pose: str) -> Iterable[RenderableType]:
+    """What no calibration takes away."""
+    left = {name: row for name, row in answer.uncompensated.items() if any(row)}
+    rows = [(name, answer.per[name], *_cleared(row)) for name, row in left.items() if None not in row]
+    yield ""
+    if not rows:
+        yield f"calibration can make up for each of them: nothing is left when the inputs bring {pose} back"
+        return
+    yield table(("left of one", "in", *_columns(answer)), rows, left=("left of one", "in"))
+    yield f"when the inputs bring {pose} back: calibration cannot make up for it; nothing is left of the others"
 
 
 def _sums(answer: ErrorsAnswer) -> Iterable[RenderableType]:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
+from assur.kinematics.pose import platform_frame, twist_rates
 from assur.kinematics.rates.acceleration import reached_in_mode
 from assur.kinematics.status import Status
 from assur.kinematics.validation.check import METRES
@@ -31,6 +32,8 @@ from assur.results.notebook import Entries, Tabulated
 from assur.work import Progress
 
 FloatArray = NDArray[np.float64]
+ROUNDED = 1e-9
+"""Share of the largest error, lengths over the characteristic one, below which what is left of one is rounding."""
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 
 
@@ -95,6 +98,53 @@ class PoseErrors(Tabulated):
         tolerances = self.record.machine.tolerances
         own = [self.sensitivity[name] * item.sigma / self._unit(name) for name, item in tolerances.items()]
         return np.asarray(np.sum([np.outer(part, part) for part in own], axis=0)) if own else np.full((6, 6), np.nan)
+
+    @cached_property
+    def _made_up(self) -> tuple[FloatArray, FloatArray]:
+        """What is added to inputs (d, e) so that errors leave the pose where it is, and what is left (6, e) of them."""
+        if not self.sensitivity:
+            return np.zeros((len(self.record.drives), 0)), np.zeros((6, 0))
+        length, names = characteristic_length(self.record), self.record.platform.pose
+        size = np.repeat([length, 1.0], 3)[:, None]
+        errors = np.array([self.sensitivity[name] for name in self._dimensions]).reshape(-1, 6).T / size
+        driven = np.nan_to_num(np.array([self.sensitivity[item.name] for item in self.record.drives]).T / size)
+        turn = platform_frame(self.record, self.values)[0]
+        rates = np.roll(twist_rates(names, turn, np.eye(6)), 3, axis=1)  # of displacements before rotations
+        added = -np.linalg.pinv(rates @ driven, rcond=FITS) @ rates @ errors
+        left = errors + driven @ added
+        left[np.abs(left) < ROUNDED * np.nanmax(np.abs(errors), initial=0.0)] = 0.0
+        return added, left * size
+
+    @property
+    def _dimensions(self) -> list[str]:
+        inputs = {item.name for item in self.record.drives}
+        return [name for name in self.sensitivity if name not in inputs]
+
+    @property
+    def corrections(self) -> dict[str, FloatArray]:
+        """What has to be added to the inputs (d,), per unit of each dimension, to bring the pose back.
+
+        A calibrated controller does so: what it cannot take away is `uncompensated`.
+
+        >>> import assur
+        >>> errors = assur.load("fivebar").errors([0.0, 224.0])
+        >>> errors.corrections["crank1.l1"].round(4).tolist()
+        [0.002, -0.0]
+        """
+        return dict(zip(self._dimensions, self._made_up[0].T, strict=True))
+
+    @property
+    def uncompensated(self) -> dict[str, FloatArray]:
+        """What is left (6,) of the error of each dimension when the inputs bring the pose back.
+
+        Calibration can tell of it and do nothing about it, as about the tilt of a platform that only translates.
+
+        >>> import assur
+        >>> left = assur.load("delta_4s").errors([0.0, 0.1, -0.9]).uncompensated
+        >>> left["leg1.L"].tolist(), left["leg1.rod1.l"].round(2).tolist()
+        ([0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, -5.43, -5.51])
+        """
+        return dict(zip(self._dimensions, self._made_up[1].T, strict=True))
 
     @cached_property
     def proved(self) -> ProvedPoses:

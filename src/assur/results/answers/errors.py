@@ -35,11 +35,12 @@ class ErrorsAnswer(AnswerOfMechanism):
     `sensitivity` has six numbers for each dimension `L`, for the copy of it in one limb `leg1.L` and in one link
     `leg1.rod.L`, and for each input, per unit of it (`per`); null where it alone does not assemble. `compatible` says
     so, `self_stress` which wrenches of joints bear it (force and moment in m at the child's point, the largest force
-    1), and `elastic` names those whose numbers are where links that bend settle. `worst_case`, `root_sum_square` and
-    `covariance` are those of the file's tolerances, null without. `proved` are bounds between which the coordinates of
-    the pose certainly lie with these, for all dimensions that assemble; null where there is no proof. `sampled` says
-    how far samples reach between them, null without tolerances. `clearances` are the largest errors that a joint's
-    clearance allows, as far as the loops close.
+    1), and `elastic` names those whose numbers are where links that bend settle. `uncompensated` is what is left of
+    each dimension's when the inputs bring the pose back: no calibration takes it away. `worst_case`, `root_sum_square`
+    and `covariance` are those of the file's tolerances, null without. `proved` are bounds between which the
+    coordinates of the pose certainly lie with these, for all dimensions that assemble; null where there is no
+    proof. `sampled` says how far samples reach between them, null without tolerances. `clearances` are the largest
+    errors that a joint's clearance allows, as far as the loops close.
     """
 
     pose: Numbers
@@ -48,6 +49,7 @@ class ErrorsAnswer(AnswerOfMechanism):
     input_names: tuple[str, ...]
     sensitivity: Mapping[str, Row]
     per: Mapping[str, str]
+    uncompensated: Mapping[str, Row]
     compatible: Mapping[str, bool]
     self_stress: Mapping[str, Mapping[str, Numbers]]
     elastic: tuple[str, ...]
