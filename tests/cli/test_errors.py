@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.pose import pose_of
+from own_machines import own_machine
 
 POSE = ("-15.4714", "9.6849", "456.3315")
 
@@ -40,6 +42,18 @@ def test_what_does_not_assemble_is_called_so(assur_cli):
     assert "leg1.rod_a.L*" in out
     assert "does not assemble alone" in out
     assert "where links that bend by their profiles settle" in out
+
+
+def test_of_what_does_not_assemble_nothing_is_said_that_is_left(assur_cli, capsys):
+    """A draft without profiles: its rods alone have no place to settle."""
+    record = own_machine("parallelograms")
+    capsys.readouterr()
+    pose = map(repr, pose_of(record, record.home_values).tolist())
+    words = ("errors", str(record.file), "--pose", *pose)
+    left = assur_cli(*words, "--json").json["uncompensated"]
+    assert any(None in row for row in left.values())
+    assert any(row == [0.0] * 6 for row in left.values())
+    assert "that assembles alone" in " ".join(assur_cli(*words).out.split())
 
 
 def test_tolerances_and_clearances_are_summed(assur_cli, toleranced):

@@ -41,7 +41,7 @@ def test_a_mechanism_prints_its_inputs_pose_and_dimensions_and_is_still_named_in
 
 def test_an_attribute_that_there_is_not_is_told_with_those_that_are_near(fivebar):
     with pytest.raises(AttributeError, match="no attribute 'invers'; did you mean inverse"):
-        fivebar.invers  # noqa: B018
+        _ = fivebar.invers
     assert not hasattr(fivebar, "_repr_png_")
 
 

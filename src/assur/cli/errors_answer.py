@@ -148,13 +148,14 @@ def _sensitivities(answer: ErrorsAnswer) -> Iterable[RenderableType]:
 def _left(answer: ErrorsAnswer, pose: str) -> Iterable[RenderableType]:
     """What no calibration takes away."""
     left = {name: row for name, row in answer.uncompensated.items() if any(row)}
-    rows = [(name, answer.per[name], *_cleared(row)) for name, row in left.items() if None not in row]
+    rows = [(name, answer.per[name], *_cleared(row)) for name, row in left.items()]
+    alone = " that assembles alone" if any(None in row for row in answer.uncompensated.values()) else ""
     yield ""
     if not rows:
-        yield f"calibration can make up for each of them: nothing is left when the inputs bring {pose} back"
+        yield f"calibration can make up for each of them{alone}: nothing is left when the inputs bring {pose} back"
         return
     yield table(("left of one", "in", *_columns(answer)), rows, left=("left of one", "in"))
-    yield f"when the inputs bring {pose} back: calibration cannot make up for it; nothing is left of the others"
+    yield f"when the inputs bring {pose} back: calibration cannot make up for it; nothing is left of any other{alone}"
 
 
 def _sums(answer: ErrorsAnswer) -> Iterable[RenderableType]:
