@@ -7,13 +7,16 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import assemble
-from assur.kinematics.pose import platform_frame
+from assur.kinematics.pose import platform_frame, pose_of
+from assur.kinematics.rates.motions import motions
 from assur.kinematics.status import Status
 from assur.machine.accuracy.error_closure import error_closure
 from assur.machine.accuracy.pose_errors import pose_errors_at
 from assur.model.machine_data import Tolerance
 from assur.numerics import rotations
+from own_machines import own_machine
 
 POSE = [-15.4714, 9.6849, 456.3315]
 
@@ -137,5 +140,22 @@ def test_where_there_is_nothing_to_say(zeng):
     far = fivebar.errors([0, 900])
     assert (far.status, far.sensitivity) == (Status.unreachable, {})
     assert np.all(np.isnan(far.values))
+    assert (far.corrections, far.uncompensated) == ({}, {})
     with pytest.raises(UsageError, match="2 poses"):
         zeng.record.errors([POSE, POSE])
+
+
+def test_with_more_drives_than_freedoms_all_of_them_bring_the_pose_back_together():
+    """An error that is a motion of the mechanism: none of its four drives moves alone, and they take it back."""
+    record = own_machine("two_upr_two_rpu")
+    errors = record.errors(pose_of(record, record.home_values))
+    motion = motions(record, errors.values)
+    along = np.random.default_rng(0).normal(size=motion.null.shape[1])
+    angular, velocity = np.split(motion.twists @ along, 2)
+    row = np.concatenate([characteristic_length(record) * velocity, angular])
+    off = replace(errors, sensitivity={"off": row})
+    joints = motion.scale * (motion.null @ along)
+    back = [-item.sign * joints[item.coordinate.index] for item in record.drives]
+    assert len(back) == 4
+    np.testing.assert_allclose(off.corrections["off"], back, atol=1e-9 * np.abs(back).max())
+    assert np.all(off.uncompensated["off"] == 0.0)
