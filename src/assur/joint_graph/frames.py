@@ -27,10 +27,9 @@ def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
     numbers = program(record, frame_numbers)(record, flat(record, values))
     batch, links = np.shape(values)[:-1], placed_links(record)
     blocks = numbers.reshape(len(links), 12, *batch)
-    return {
-        link: (np.moveaxis(block[:9].reshape(3, 3, *batch), (0, 1), (-2, -1)), np.moveaxis(block[9:], 0, -1))
-        for link, block in zip(links, blocks, strict=True)
-    }
+    orientations = np.moveaxis(blocks[:, :9].reshape(len(links), 3, 3, *batch), (1, 2), (-2, -1))
+    origins = np.moveaxis(blocks[:, 9:], 1, -1)
+    return dict(zip(links, zip(orientations, origins, strict=True), strict=True))
 
 
 def screws(record: MechanismRecord, values: FloatArray) -> FloatArray:
