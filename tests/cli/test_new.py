@@ -119,6 +119,7 @@ def test_what_is_driven_can_be_chosen(assur_cli, folder):
         (("my.toml", "--from", "fivebar", "--chain", "R[z]"), "--from and --chain"),
         (("my.toml", "--chain", "R[z]", "--limb", "R[z]"), "--chain and --limb"),
         (("my.toml", "3-RPS", "--limb", "R[z]"), "a shorthand and --limb"),
+        (("my.toml", "--limb", "R[z]", "--limb", "P[x]"), "given 2 times"),
         (("my.toml", "3-RPS", "--from", "fivebar"), "a shorthand and --from"),
         (("my.toml", "3-RPS", "--count", "3"), "--count goes with"),
         (("my.toml", "3-RQS"), "at character 4"),

@@ -49,8 +49,14 @@ def new(
         Parameter(name="--chain", metavar="TEXT", help="One limb from base to platform, in quotes. May be repeated."),
     ] = (),
     limb: Annotated[
-        str, Parameter(metavar="TEXT", allow_leading_hyphen=True, help="One limb, in quotes, repeated evenly about z.")
-    ] = "",
+        tuple[str, ...],
+        Parameter(
+            name="--limb",
+            metavar="TEXT",
+            allow_leading_hyphen=True,
+            help="One limb, in quotes, repeated evenly about z.",
+        ),
+    ] = (),
     count: Annotated[str, Parameter(metavar="N", help="How often --limb is there; 3 if left out.")] = "",
     actuate: Annotated[
         str, Parameter(metavar="LIMB.JOINT,..", help="What is actuated, as 1.1,2.1,3.1, counted from the base.")
@@ -114,7 +120,7 @@ def _made(
     arrangement: str,
     from_: str,
     chain: Sequence[str],
-    limb: str,
+    limb: Sequence[str],
     count: str,
     actuate: str,
     mode: str,
@@ -206,7 +212,9 @@ def _written_copy(copy: Copied, path: Path, *, force: bool, with_closed_form: bo
     return _outcome(path, files, said)
 
 
-def _chains(path: Path, from_: str, chain: Sequence[str], limb: str, count: str, shorthand: str) -> Sequence[Chain]:
+def _chains(
+    path: Path, from_: str, chain: Sequence[str], limb: Sequence[str], count: str, shorthand: str
+) -> Sequence[Chain]:
     """The chains that were given in exactly one of the ways."""
     from assur.synthesis.drafting.repeating import repeated
     from assur.topology.notation import parse_chains
@@ -217,8 +225,12 @@ def _chains(path: Path, from_: str, chain: Sequence[str], limb: str, count: str,
         found = " and ".join(given) if given else "nothing to begin with"
         hint = f'for example: assur new {path} 3-RPS, or assur new {path} --limb "R[z] R[z] R[z]" --count 3'
         raise UsageError(f"{found}; give a shorthand or one of --from, --chain and --limb", hint=hint)
+    if len(limb) > 1:
+        each = " ".join(f'--chain "{text}"' for text in limb)
+        hint = f"limbs that differ are chains: assur new {path} {each}"
+        raise UsageError(f"--limb is given {len(limb)} times; it is one limb, repeated about z", hint=hint)
     if limb:
-        return repeated(limb, whole_number(count or LIMBS, "--count"))
+        return repeated(limb[0], whole_number(count or LIMBS, "--count"))
     _refuse_options(path, {"--count": count}, "--limb")
     return parse_chains(chain)
 
