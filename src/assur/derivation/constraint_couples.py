@@ -49,7 +49,7 @@ def _couples(solution: AnalyticSolution) -> Iterator[Vector]:
     lines = LinkLines(solution.symbols, solution.placed, solution.loops)
     for limb in record.chains.values():
         groups = [record.generalised[name] for name in limb.serial if name in record.generalised]
-        if limb.loop or len(groups) != 1 or groups[0].kind != "P(4S)":
+        if limb.loop or len(groups) != 1 or groups[0].kind not in ("P(4S)", "P(2US)"):
             continue
         side = _short_side(lines, groups[0])
         turning = [record.joints[name] for name in limb.serial if name in record.joints]

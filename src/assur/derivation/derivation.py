@@ -27,8 +27,9 @@ class Derivation:
         """The file `closed_form.py`. Errors: NotDerivedError."""
         signs = matched_signs(self.direct, self.inverse)
         formulas = ClosedFormFormulas(self.direct, self.inverse, signs.roots, signs.factors, signs.products)
-        plain = ClosedFormText(formulas, couples=coplanar_couples(self.inverse))
-        lost = rank_losses(self.record, plain.text())
+        couples = coplanar_couples(self.inverse)
+        plain = ClosedFormText(formulas, couples=couples)
+        lost = rank_losses(self.record, plain.text(), tuple(couples))
         return replace(plain, meanings=ClosedFormMeanings(formulas), constraint_singular=lost).text()
 
     def printed(self) -> PrintedDerivation:

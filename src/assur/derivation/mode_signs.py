@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -223,8 +223,26 @@ class _Matching:
 
     @cached_property
     def _anywhere(self) -> FloatArray:
-        """Poses (N, m) of assemblies by chance, in any mode: each root is real, and has both signs, at some of them."""
-        return pose.pose_of(self.record, assemblies_by_chance(self.record))
+        """Poses (N, m) of assemblies by chance, and of the other branches at the inputs of a few of them: each root is
+        real, and has both signs, at some.
+        """
+        assemblies = assemblies_by_chance(self.record)
+        return np.concatenate([pose.pose_of(self.record, assemblies), *self._other_branches(assemblies[:PLACES])])
+
+    def _other_branches(self, assemblies: FloatArray) -> Iterator[FloatArray]:
+        """Poses (N, m) of the direct problem's branches at the inputs of assemblies (K, n), where they are real."""
+        solve = self.form.direct
+        if not callable(solve):
+            return
+        names = [self.own["direct", root.symbol][0] for root in self.direct.roots]
+        inputs = border.input_components(self.record, border.inputs_of(self.record, assemblies))
+        for signs in itertools.product((1.0, -1.0), repeat=len(names)):
+            own = SimpleNamespace(**dict(zip(names, signs, strict=True)))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                branch = solve(Floats(), kernel_dimensions(self.record), inputs, own)
+            parts = (np.broadcast_to(border.scalar(value), len(assemblies)) for value in branch.pose)
+            poses = np.stack([*parts], axis=-1)
+            yield poses[np.all(np.isfinite(poses), axis=-1)]
 
     def _branches(self, poses: FloatArray) -> _Branches:
         """Branches at poses."""

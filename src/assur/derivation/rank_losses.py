@@ -32,16 +32,18 @@ FAR = 1.0
 """Half the range of the poses, in characteristic lengths and rad."""
 
 
-def rank_losses(record: MechanismRecord, text: str) -> tuple[Group, ...]:
+def rank_losses(record: MechanismRecord, text: str, known: Group = ()) -> tuple[Group, ...]:
     """Groups of factors where the closure loses rank: the smallest sets that vanish at such places and at no other.
 
     Args:
         record: of the mechanism.
         text: its closed form, whose groups are not looked at.
+        known: factors that are known to vanish together there and nowhere else, if there are any: a mode in which they
+            do so everywhere has no place where another factor shows it.
     """
     form: ClosedForm = names_of(text, Path("closed_form.py"))["CLOSED_FORM"]
     own = record.with_closed_form(form, text)
-    lost, kept = set[frozenset[str]](), set[frozenset[str]]()
+    lost, kept = {frozenset(known)}, set[frozenset[str]]()
     for places in _singular_places(own):
         shares = {name: np.abs(value) for name, value in relative_factors(own, places.factors).items()}
         vanishing = {name: share <= SAME for name, share in shares.items()}
