@@ -11,9 +11,10 @@ import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble, closure_error
+from assur.kinematics.configurations import distinct
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.kinematics.search import AGAIN, MOST, STARTS, distinct, search
+from assur.kinematics.search import AGAIN, MOST, STARTS, search
 from assur.kinematics.starts import by_chance
 from assur.kinematics.status import Status
 from assur.kinematics.turns import with_turns_of_home

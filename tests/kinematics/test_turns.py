@@ -7,13 +7,14 @@ from assur.joint_graph.tree import joint_graph
 from assur.joint_graph.turns import turn_relations
 from assur.joints.spherical import SPHERICAL
 from assur.kinematics.answers.excess import excesses
+from assur.kinematics.configurations import places
 from assur.kinematics.following.following import follow
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.pose import pose_of
 from assur.kinematics.postures import unwound
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.kinematics.search import places, search
+from assur.kinematics.search import search
 from assur.kinematics.turns import (
     counted,
     in_one_turn,

@@ -21,7 +21,7 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import CLOSED, closure_error
-from assur.kinematics.search import places
+from assur.kinematics.configurations import places
 from assur.mechanism import Mechanism
 from assur.results.answers.installation import Check, InstallationAnswer
 from assur.results.plain_text import count

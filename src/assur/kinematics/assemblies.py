@@ -13,6 +13,7 @@ from assur.joint_graph.turns import screws_among
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import RANK_GAP, assemble, closing_system
 from assur.kinematics.coaxial_screws import MergedPair, merged_pair
+from assur.kinematics.configurations import SAME, places
 from assur.kinematics.home import home_values
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.limbs.solving import LimbSolutions
@@ -24,7 +25,7 @@ from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
-from assur.kinematics.search import SAME, STARTS, places, search
+from assur.kinematics.search import STARTS, search
 from assur.kinematics.starts import by_chance
 from assur.kinematics.validation.check import check
 from assur.model.mechanism import MechanismRecord

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble
+from assur.kinematics.configurations import SAME, places
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord

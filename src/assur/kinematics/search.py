@@ -8,19 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Interrupted
-from assur.joint_graph.frames import frames
-from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closure import Assembly, assemble
+from assur.kinematics.configurations import numbered
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.turns import (
-    counted,
     counts_turns,
     near_turns_of_home,
-    periodic,
     periodic_inputs,
     with_turns_of_home,
 )
@@ -44,9 +41,6 @@ AGAIN, LEAST = 24, 4
 """A search ends when so many assemblies in a row, for each that is known, were known already; for so many at least; and
 each was met twice; or after MOST starts. One start by chance in 8000 leads to the rarest assembly of the Delta robot's
 inverse problem: 16 times 40 that close missed it, 24 times do not."""
-
-SAME = 1e-5
-"""Assemblies whose joints are all nearer than this share of the characteristic length are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,49 +162,3 @@ def _on_the_way(record: MechanismRecord, problem: Problem, given: FloatArray) ->
         values = _assembled(record, problem, begun + share * change, values[None]).values[0]
         on.append(values)
     return np.array(on)
-
-
-def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
-    """Indices of the first of each group of joint values (N, coordinates) that are one configuration."""
-    return np.unique(numbered(record, joints), return_index=True)[1]
-
-
-def numbered(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
-    """Which configuration (N,) each of joint values (N, coordinates) is, from 0 on in the order in which they are met.
-
-    Configurations are told apart by where the joints and the platform are, and by their inputs; a rod that spins about
-    its ball joints does not make another one.
-    """
-    where = places(record, joints)
-    number = np.zeros(len(where), dtype=np.intp)
-    if not len(where):
-        return number
-    widest = where[:, np.argmax(np.ptp(where, axis=0))]  # tells most of them apart alone
-    firsts, count = np.zeros(len(where), dtype=np.intp), 0
-    for k, place in enumerate(where):
-        near = np.flatnonzero(~(np.abs(widest[firsts[:count]] - widest[k]) > SAME))
-        gaps = np.max(np.abs(where[firsts[near]] - place), axis=-1)
-        alike = near[gaps <= SAME]
-        number[k] = alike[0] if len(alike) else count
-        if not len(alike):
-            firsts[count] = k
-            count += 1
-    return number
-
-
-def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Places (N, k) of all joints and of the platform in units of the characteristic length, inputs, counted turns."""
-    placed, length = frames(record, joints), characteristic_length(record)
-    columns = []
-    for joint in record.joints.values():
-        rotation, origin = placed[joint.parent]
-        columns.append((rotation @ joint.at + origin) / length)
-    rotation, origin = placed[record.platform.link]
-    columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
-    for driven in record.drives:
-        index = driven.coordinate.index
-        value = joints[:, [index]]
-        same = periodic(record)[index]
-        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[index]]
-    columns.append(joints[:, counted(record)])
-    return np.concatenate(columns, axis=-1)

@@ -14,11 +14,12 @@ from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closing_blocks.columns import assemblies_by_chance
 from assur.kinematics.closure import assemble, closure_error, closure_jacobian
+from assur.kinematics.configurations import places
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.pose import pose_of
-from assur.kinematics.search import places, search
+from assur.kinematics.search import search
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record, names
 from assur.synthesis.drafting.copying import copied

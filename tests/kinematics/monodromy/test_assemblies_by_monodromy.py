@@ -10,6 +10,7 @@ from assur.errors import Interrupted
 from assur.joint_graph.state import state_of
 from assur.kinematics import assemblies
 from assur.kinematics.border import inputs_of
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.monodromy import assemblies_by_monodromy as module
@@ -18,7 +19,6 @@ from assur.kinematics.monodromy.complex_loops import ComplexLoops
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct
-from assur.kinematics.search import distinct
 from assur.model.registry import load_record
 from catalogue import each
 

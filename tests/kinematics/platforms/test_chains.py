@@ -7,6 +7,7 @@ import pytest
 
 from assur.cli.main import main
 from assur.kinematics.closure import closure_error
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.networks import limbs_of
 from assur.kinematics.limbs.point_closure import MovingLimbError
@@ -21,7 +22,7 @@ from assur.kinematics.limbs.serial import (
 from assur.kinematics.limbs.solving import limb_solutions
 from assur.kinematics.platforms.chains import closed_series, held_series, loop_of
 from assur.kinematics.platforms.direct import direct_by_conditions
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import search
 from assur.model.registry import load_record
 from assur.numerics.rotations import from_vector
 

@@ -8,12 +8,13 @@ import pytest
 import assur
 from assur.cli.main import main
 from assur.kinematics.closure import closure_error
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.platforms.direct import direct_by_conditions
 from assur.kinematics.pose import pose_of
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import search
 from assur.model.registry import load_record
 
 

@@ -7,6 +7,7 @@ from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.loops.parallelograms import crossed_parallelograms
@@ -14,7 +15,7 @@ from assur.kinematics.platforms import inverse as platforms_inverse
 from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import search
 from assur.model.registry import load_record
 
 DRAFTS = {

@@ -6,6 +6,7 @@ import pytest
 from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import closure_error
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.networks import limbs_of
 from assur.kinematics.platforms.direct import direct_by_conditions
@@ -13,7 +14,7 @@ from assur.kinematics.platforms.inverse import inverse_by_limbs
 from assur.kinematics.platforms.limbs import closed_limb, held_limb, limb_conditions
 from assur.kinematics.platforms.soma import products, soma_of
 from assur.kinematics.pose import platform_frame, pose_of
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import search
 from assur.model.registry import load_record
 
 HYBRIDS = {

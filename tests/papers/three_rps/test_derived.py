@@ -6,7 +6,7 @@ import pytest
 
 import assur
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.search import distinct
+from assur.kinematics.configurations import distinct
 from assur.kinematics.status import Status
 
 KNOWN = {(380, 380, 400): 16, (263, 263, 263): 8, (380, 395, 395): 16, (380, 380.02, 400): 16, (263, 263.1, 263.3): 8}

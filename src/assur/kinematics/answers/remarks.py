@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.search import places
+from assur.kinematics.configurations import places
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -25,8 +25,8 @@ from assur.kinematics.certified.given import inputs_meant, number, pose_meant
 from assur.kinematics.certified.platform import pose_parts, pose_rows
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution, at_most
 from assur.kinematics.closure import closing_system
+from assur.kinematics.configurations import distinct
 from assur.kinematics.modes import Method, Problem
-from assur.kinematics.search import distinct
 from assur.kinematics.turns import in_one_turn, periodic
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations

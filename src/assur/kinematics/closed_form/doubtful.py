@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closure import CLOSED, assemble
-from assur.kinematics.search import distinct
+from assur.kinematics.configurations import distinct
 from assur.kinematics.status import Status, scale, vanishes
 from assur.kinematics.turns import in_one_turn
 from assur.model.mechanism import MechanismRecord

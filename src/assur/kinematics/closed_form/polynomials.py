@@ -12,10 +12,10 @@ from assur.kinematics.assemblies import ANOTHER, assemblies
 from assur.kinematics.closed_form.branches import branches
 from assur.kinematics.closed_form.roots import roots_of
 from assur.kinematics.closed_form.systems import solutions_of
+from assur.kinematics.configurations import places
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
 from assur.kinematics.modes import Method
 from assur.kinematics.pose import pose_of
-from assur.kinematics.search import places
 from assur.kinematics.status import Status, closed_form_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord

@@ -27,11 +27,11 @@ from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_sign
 from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.closing_blocks.triangular import triangular_factors
 from assur.kinematics.closure import assemble
+from assur.kinematics.configurations import numbered
 from assur.kinematics.loops.loops import LoopSolutions, solve_by_loops
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
-from assur.kinematics.search import numbered
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord

@@ -17,10 +17,10 @@ from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.signs import ChangingSign, factor_signs
 from assur.kinematics.closing_blocks.strokes import with_zero
 from assur.kinematics.closure import RANK_GAP, assemble
+from assur.kinematics.configurations import SAME, places
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.motions import motions
-from assur.kinematics.search import SAME, places
 from assur.kinematics.still import otherwise
 from assur.kinematics.turns import joint_units, periodic
 from assur.model.mechanism import MechanismRecord

@@ -32,7 +32,8 @@ from assur.model.mechanism import MechanismRecord
 from assur.version import VERSION
 
 KIND = "modes"
-CODE = (Path(__file__).parent, *(Path(__file__).parents[1] / f"{name}.py" for name in ("related", "starts", "still")))
+ALIKE = ("configurations", "related", "starts", "still")
+CODE = (Path(__file__).parent, *(Path(__file__).parents[1] / f"{name}.py" for name in ALIKE))
 """The code that finds them: another way to choose signs, or assemblies, makes other names."""
 LARGEST = 10_000_000
 """Bytes of an entry; a larger one is none of ours."""

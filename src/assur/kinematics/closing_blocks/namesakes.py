@@ -16,9 +16,9 @@ from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.signs import ChangingSign, factor_signs
 from assur.kinematics.closure import assemble
+from assur.kinematics.configurations import SAME, places
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
-from assur.kinematics.search import SAME, places
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS

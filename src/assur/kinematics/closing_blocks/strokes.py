@@ -1,4 +1,8 @@
-"""Strokes: on which side of one centred joint another lies along a slide, which changes where the two meet."""
+"""Strokes: on which side of one centred joint another lies along a slide.
+
+It changes where the two meet or, if one is a ball joint and the slide lies beside the line between them, where that
+line is square to the slide: then the leg turns about the other joint as the slide moves, and nothing else does.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +28,8 @@ MERGED = 1e-9
 class StrokeSign:
     """The sign of a stroke: on which side of one joint's centre another lies, along a slide between the two.
 
-    Both are ball or universal joints, so that a stroke of zero is a singularity; the square of it is what a block's
-    determinant has as a factor.
+    Both are ball or universal joints, so that a stroke of zero is a singularity. It is a factor of a block's
+    determinant, or its square is.
 
     Attributes:
         slide: the prismatic joint.
@@ -49,7 +53,7 @@ class StrokeSign:
         return np.asarray(np.einsum("ni,ni->n", line, screws.axis(self.slide)) / self.size)
 
     def signs(self, screws: ScrewColumns) -> SignArray:
-        """Signs (N,); 0 where the joints are in one place."""
+        """Signs (N,); 0 where the line between the joints is square to the slide, or none."""
         return with_zero(self.shares(screws))
 
 
@@ -59,7 +63,7 @@ def with_zero(values: FloatArray) -> SignArray:
 
 
 def stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
-    """Those of all slides between two centred joints, at whose assemblies these stay in line with the slide."""
+    """Those of all slides between two centred joints, one a ball joint or both always in line with the slide."""
     record = screws.record
     centred = [name for name, joint in record.joints.items() if joint.type.ball or joint.type.turns == 2]
     for name, slide in record.joints.items():
@@ -71,7 +75,8 @@ def stroke_signs(screws: ScrewColumns) -> Iterator[StrokeSign]:
                 continue
             line = screws.centre(far) - screws.centre(near)
             off = np.linalg.norm(cross(line, screws.axis(name)), axis=1)
-            if np.max(off) < SMALL * characteristic_length(record):
+            ball = any(record.joints[end].type.ball for end in (near, far))
+            if ball or np.max(off) < SMALL * characteristic_length(record):
                 stroke = float(StrokeSign(name, near, far).shares(screws)[0])
                 if stroke:
                     yield StrokeSign(name, near, far, stroke)

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
+from assur.kinematics.configurations import SAME, places
 from assur.kinematics.following import from_home
 from assur.kinematics.following.course import Prescribed, Turns
 from assur.kinematics.following.exclusion import MERGED, of_other_signs
@@ -31,7 +32,6 @@ from assur.kinematics.modes import mode_text
 from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
 from assur.kinematics.still import otherwise
 from assur.kinematics.turns import periodic_inputs

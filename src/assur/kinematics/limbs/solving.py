@@ -70,7 +70,8 @@ class LimbSolutions:
 
 
 def limb_solutions(limb: SerialLimb, platform: Frame, driven: Collection[int] = ()) -> LimbSolutions:
-    """A limb at a frame of the platform; ways that differ in neither points nor `driven` joint values count once.
+    """A limb at a frame of the platform; ways that differ in neither points, nor slides' directions,
+    nor `driven` joint values count once.
 
     Errors:
         NotSerialError: no point of it is left in place by enough of its joints.
@@ -279,8 +280,8 @@ def _of_rod(limb: SerialLimb, first: int, second: int, displaced: Frame) -> tupl
 
 
 def told_apart(limb: SerialLimb, values: FloatArray, bent: FloatArray, driven: Collection[int]) -> list[int]:
-    """Rows of values (K, k), in the order of their indices, that put points of the limb elsewhere, or have other
-    `driven` joint values; of equal ones the most real.
+    """Rows of values (K, k), in the order of their indices, that put points of the limb elsewhere, point slides
+    elsewhere, or have other `driven` joint values; of equal ones the most real.
     """
     size = size_of(limb.motions, limb.length)
     order = np.argsort(np.argsort([index for motion in limb.motions for index in motion.indices]))
@@ -295,11 +296,12 @@ def told_apart(limb: SerialLimb, values: FloatArray, bent: FloatArray, driven: C
 def _places(
     motions: Sequence[ElementaryMotion], row: FloatArray, driven: Collection[int], size: float
 ) -> Iterator[float]:
-    """Where the points of the motions are, in sizes, and driven joint values."""
+    """Where the points of turns are, in sizes, which way slides point, and driven joint values."""
     frame: Frame = (np.eye(3), np.zeros(3))
     column = 0
     for motion in motions:
-        yield from (frame[0] @ motion.point + frame[1]) / size
+        slides = motion.kind == "slide"
+        yield from frame[0] @ motion.axis if slides else (frame[0] @ motion.point + frame[1]) / size
         own = row[column : column + len(motion.indices)]
         column += len(own)
         if motion.kind != "ball":

@@ -14,6 +14,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.joint_graph.turns import turn_relations
 from assur.kinematics import border
 from assur.kinematics.closure import assemble
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.alike import alike_merged
@@ -23,7 +24,7 @@ from assur.kinematics.loops.orientations import Turning, turnings
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.modes import Problem
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import search
 from assur.kinematics.turns import lasting_relations, told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion

@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from assur.joint_graph.state import state_of, values_of
 from assur.joint_graph.turns import screws_among
 from assur.kinematics.border import held_inputs
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.loops.loops import LoopSolutions, PositionQuestion
 from assur.kinematics.modes import Problem
 from assur.kinematics.monodromy.complex_loops import ComplexLoops, NoMonodromyError
 from assur.kinematics.monodromy.paths import followed
 from assur.kinematics.pose import pose_error
-from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion
 from assur.numerics.monodromy import random_complex

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.networks import Limb, limbs_of, limbs_of_middle
 from assur.kinematics.limbs.point_closure import MovingLimbError
@@ -21,7 +22,6 @@ from assur.kinematics.platforms.conditions import UncertainConditionsError, join
 from assur.kinematics.platforms.inverse import OPEN
 from assur.kinematics.platforms.limbs import closed_limb, held_limb, limb_conditions
 from assur.kinematics.platforms.poses import poses_under
-from assur.kinematics.search import distinct
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

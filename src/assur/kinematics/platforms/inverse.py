@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame
 from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.configurations import distinct
 from assur.kinematics.home import home_values
 from assur.kinematics.limbs.networks import Limb, limbs_of
 from assur.kinematics.limbs.point_closure import DOUBTFUL, MovingLimbError
@@ -30,7 +31,6 @@ from assur.kinematics.platforms.limbs import closed_limb, limb_conditions
 from assur.kinematics.platforms.open_poses import OpenPoses, poses_by_limb
 from assur.kinematics.platforms.poses import Poses, poses_under
 from assur.kinematics.pose import error_of
-from assur.kinematics.search import distinct
 from assur.kinematics.turns import counts_turns, joint_units, periodic, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
