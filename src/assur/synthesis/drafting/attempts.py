@@ -31,6 +31,7 @@ from assur.synthesis.drafting.limb import HEIGHT_NAME
 from assur.synthesis.drafting.pose import pose_for
 from assur.synthesis.drafting.tables import Knee
 from assur.synthesis.drafting.templates import Draft, draft
+from assur.synthesis.drafting.ties import Tie, joints_of, tied, ties
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.facts import Topology
@@ -59,7 +60,7 @@ ROOM, TILT = 100, 30
 class Attempt:
     """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes.
 
-    Of an `unchecked` one it is not known whether the file has faults.
+    Of an `unchecked` one it is not known whether the file has faults. `moved`: home is not as `drawn`.
     """
 
     text: str
@@ -68,6 +69,8 @@ class Attempt:
     clearance: float = 0.0
     unreadable: bool = False
     unchecked: bool = False
+    drawn: Draft | None = None
+    moved: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,9 @@ class DraftQuestion:
     def attempt(self, layout: DraftLayout, *, moved: bool, unchecked: bool = False) -> Attempt:
         """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
         drawn = draft(self.chains, layout)
+        return dataclasses.replace(self._formed(drawn, moved, unchecked=unchecked), drawn=drawn, moved=moved)
+
+    def _formed(self, drawn: Draft, moved: bool, *, unchecked: bool) -> Attempt:
         if self.coordinates:
             return self._written(drawn, moved=moved, unchecked=unchecked)
         # where loops close for special dimensions alone, rounded ones may not do
@@ -124,6 +130,26 @@ class DraftQuestion:
             return Attempt(document(drawn, chosen), record, clearance=clearance(record), unchecked=unchecked)
         except AssurError as error:
             return Attempt("", None, error.message, unreadable=True)
+
+    def tied(self, made: Attempt) -> Attempt:
+        """The same with formulas for dimensions that loops close for only if others change with them."""
+        drawn = made.drawn
+        if drawn is None or made.record is None or not ties(made.record):
+            return made
+        if self.coordinates:
+            return self._with_ties(drawn, ties(made.record), made) or made
+        straight: frozenset[str] = frozenset()
+        for _ in ("as they are", "by x and y where angles are tied"):
+            form = by_lengths(drawn, rounded=False, straight=straight)
+            exact = self._written(form, moved=made.moved, unchecked=True)
+            own = () if exact.record is None else ties(exact.record)
+            straight |= joints_of(form, [name for tie in own if not tie.linear for name in tie.names])
+        forms = (by_lengths(drawn, rounded=rounded, straight=straight) for rounded in (True, False))
+        return next(filter(None, (self._with_ties(form, own, made) for form in forms)), made)
+
+    def _with_ties(self, form: Draft, own: Sequence[Tie], made: Attempt) -> Attempt | None:
+        again = self._written(tied(form, own), moved=made.moved, unchecked=False)
+        return again if self.agrees(again, {}) else None
 
     def agrees(self, made: Attempt, reasons: dict[str, None]) -> bool:
         """Whether a file is sound and has the topology of the chains; if not, why."""

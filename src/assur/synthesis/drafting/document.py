@@ -123,8 +123,11 @@ def _parameters(draft: Draft) -> list[str]:
     for template in draft.templates:
         listed += [*template.dimensions, *template.turn_dimensions]
     width = max((len(dimension.name) for dimension in listed), default=0)
+    tied = any(size.formula for size in listed)
+    said = "change numbers as you like, not formulas, by which loops close" if tied else "change them as you like"
     return [
-        "[parameters]                         # change them as you like",
+        f"[parameters]                         # {said}",
+        *(f"# not alone, as loops close for some values of them together: {', '.join(own)}" for own in draft.together),
         *(_dimension(dimension, width) for dimension in listed),
     ]
 
@@ -132,7 +135,8 @@ def _parameters(draft: Draft) -> list[str]:
 def _dimension(dimension: Dimension, width: int) -> str:
     sign = "" if dimension.sign == "positive" else f', sign = "{dimension.sign}"'
     sign += f', unit = "{dimension.unit}"' if dimension.unit else ""
-    return f'{dimension.name:{width}} = {{ value = {dimension.value:.12g}, meaning = "{dimension.meaning}"{sign} }}'
+    value = f'"{dimension.formula}"' if dimension.formula else f"{dimension.value:.12g}"
+    return f'{dimension.name:{width}} = {{ value = {value}, meaning = "{dimension.meaning}"{sign} }}'
 
 
 def _limb(template: Template, driven: Mapping[str, DrivenJoint], *, drawn: bool, chained: bool) -> Iterator[list[str]]:

@@ -112,16 +112,16 @@ def drafted(
                 continue
             if made.clearance >= GOOD and _lengths(made) >= enough:
                 if asked.agrees(made, reasons):
-                    return _drafted(made, topology)
+                    return _drafted(asked.tied(made), topology)
                 continue
             sound.append(made)
         for made in _best_first(sound, enough):
             if made.clearance >= CLEAR and asked.agrees(made, reasons):
-                return _drafted(made, topology)
+                return _drafted(asked.tied(made), topology)
         singular += [made for made in sound if made.clearance < CLEAR]
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
-            return _drafted(made, topology)
+            return _drafted(asked.tied(made), topology)
     listed = "; ".join(list(reasons)[:3])
     raise UsageError(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import chain, count
 
@@ -30,7 +30,9 @@ COARSE = 10.0
 """What is longer is rounded to whole mm, what is shorter to tenths."""
 
 
-def by_lengths(drawn: Draft, *, rounded: bool = True, polar: bool = True) -> Draft:
+def by_lengths(
+    drawn: Draft, *, rounded: bool = True, polar: bool = True, straight: Collection[str] = frozenset()
+) -> Draft:
     """The same mechanism by lengths, offsets and angles.
 
     Args:
@@ -38,6 +40,7 @@ def by_lengths(drawn: Draft, *, rounded: bool = True, polar: bool = True) -> Dra
         rounded: whether to whole numbers, so that home closes near to where it was drawn; else it is the same to the
             last digits.
         polar: whether places on base and platform are told by radius and angle; else by x and y.
+        straight: joints whose places there are told by x and y in any case.
     """
     sizes = {size.name: size.value for size in _all_dimensions(drawn)}
     platform = np.array([0.0, 0.0, sizes.get(HEIGHT_NAME, 0.0)])
@@ -45,7 +48,7 @@ def by_lengths(drawn: Draft, *, rounded: bool = True, polar: bool = True) -> Dra
     made = []
     for template in drawn.templates:
         home = turned_links(template, sizes, platform)
-        sizing = _Sizing(template, home, sizes, numbers, len(drawn.templates) > 1, rounded, polar)
+        sizing = _Sizing(template, home, sizes, numbers, len(drawn.templates) > 1, rounded, polar, straight)
         made.append(sizing.template_by_lengths())
     used = {
         name
@@ -79,6 +82,7 @@ class _Sizing:
     several: bool
     rounded: bool
     polar: bool
+    straight: Collection[str]
     dimensions: list[Dimension] = field(default_factory=list)
     known: dict[tuple[str, tuple[float, ...]], Point] = field(default_factory=dict)
 
@@ -141,7 +145,7 @@ class _Sizing:
         base, part = link == BASE_LINK, self._letter(joint)
         radius, angle = math.hypot(x, y), math.degrees(math.atan2(y, x))
         across: tuple[Linear, Linear] = (Linear(), Linear())
-        if not self.polar and abs(y) > NOTHING:
+        if (not self.polar or joint.name in self.straight) and abs(y) > NOTHING:
             x_of, y_of = (
                 dimension(self._new(f"{axis}{part}", value, f"{link}: {part} along {axis.upper()}"))
                 if abs(value) > NOTHING

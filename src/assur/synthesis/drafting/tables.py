@@ -13,13 +13,17 @@ from assur.topology.directions import EXACT, Vector
 
 @dataclass(frozen=True)
 class Dimension:
-    """A parameter of the file: its default value, what it means, what it may be, and its unit where it is no length."""
+    """A parameter of the file: its default value, what it means, what it may be, and its unit where it is no length.
+
+    One with a `formula` of others has that value.
+    """
 
     name: str
     value: float
     meaning: str
     sign: str = "any"
     unit: str = ""
+    formula: str = ""
 
 
 @dataclass(frozen=True)

@@ -32,12 +32,14 @@ class Draft:
         dimensions: those that belong to no limb.
         flat: whether all motion is in planes perpendicular to z, so that nothing has a height.
         chains: the limbs in notation, each as it stands, in their order.
+        together: dimensions that change together, or else no loops close, where no formula says how.
     """
 
     dimensions: tuple[Dimension, ...]
     templates: tuple[Template, ...]
     flat: bool
     chains: tuple[str, ...] = ()
+    together: tuple[tuple[str, ...], ...] = ()
 
     def joint_of(self, chain: int, place: int) -> str:
         """The full name in the file of a joint of a chain, both counted from 0, branches flattened."""
