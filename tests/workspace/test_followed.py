@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.pose import pose_of
 from assur.workspace.fields import closed_form_fields, sample
-from assur.workspace.followed import continued_past, filled, over_grid
+from assur.workspace.followed import over_grid
+from assur.workspace.followed_field import continued_past, filled
 from assur.workspace.grid import grid_over
 from assur.workspace.region import workspace
 from assur.workspace.slices import slice_at
@@ -307,3 +309,39 @@ def test_strokes_of_screws_bound_a_workspace_by_their_turns(tmp_path):
     width = np.clip(np.minimum(60, half - 10) - np.maximum(-60, half - 90), 0, None)
     assert abs(found.volume - np.mean(width) * 65) < 3 * found.volume_error
     assert found.volume_error < 0.02 * found.volume
+
+
+CORNERED = {"x": (-110.0, 90.0), "y": (200.0, 320.0)}
+
+
+@pytest.mark.parametrize("resolution", [5, 16])
+def test_two_borders_that_meet_give_an_edge(resolution):
+    """The five-bar's arms, both stretched, meet over the middle between the motors: one border alone would cut it off.
+
+    Tangents of arcs leave their curvature within a cell, of second order in its size.
+    """
+    record = assur.load("fivebar")
+    p, found = record.values, workspace(stripped("fivebar"), box=CORNERED, resolution=resolution)
+    fine = workspace(record, box=CORNERED, resolution=200)
+    step = found.region.grid.step[:2]
+    (outline,) = found.projection("x", "y").polygons
+    corner = np.array([0.0, np.sqrt((p.l1 + p.l2) ** 2 - p.g**2)])
+    arc = np.max(step) ** 2 / (p.l1 + p.l2)  # eight times the height of an arc over a chord of a cell
+    assert np.min(np.linalg.norm(outline - corner, axis=1)) < 0.35 * np.max(step)
+    assert abs(np.max(outline[:, 1]) - corner[1]) < arc
+    # chords lie inside: the area is less by a sagitta of a cell along the border
+    assert 0.0 <= fine.volume - found.volume < arc * (np.ptp(outline[:, 0]) + np.ptp(outline[:, 1]))
+
+
+def test_an_edge_of_a_mechanism_without_closed_form_is_where_solutions_end():
+    """At theta = 0 two borders are lines, with fewer solutions across each; their corner is not cut off."""
+    mechanism = assur.load(Path(__file__).parents[1] / "kinematics" / "following" / "m2.toml")
+    found = mechanism.workspace(held={"theta": 0.0}, resolution=8)
+    (outline,) = found.projection("x", "z").polygons
+    corner = outline.max(axis=0)
+    assert np.all(corner < np.array(found.box.high) - 1.0)
+    assert np.min(np.linalg.norm((outline - corner) / found.region.grid.step[:2], axis=1)) < 0.01
+    inside, *beyond = (
+        len(mechanism.inverse([*(corner + 0.1 * np.array(way)), 0.0])) for way in ((-1, -1), (1, -1), (-1, 1))
+    )
+    assert max(beyond) < inside

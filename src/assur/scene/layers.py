@@ -22,7 +22,7 @@ from assur.scene.refining import combed, refined
 from assur.scene.thinning import thinned
 from assur.singularity.loci import Locus
 from assur.workspace.fields import Field
-from assur.workspace.followed import FollowedField
+from assur.workspace.followed_field import FollowedField
 from assur.workspace.grid import UniformGrid
 from assur.workspace.region import Workspace, workspace
 from assur.workspace.sections import RegionSection

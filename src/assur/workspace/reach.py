@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from assur.workspace.crossings import root_of
 from assur.workspace.fields import Field, at_points, samples
-from assur.workspace.followed import FollowedField
+from assur.workspace.followed_field import FollowedField
+from assur.workspace.followed_reach import ReachField
 from assur.workspace.grid import UniformGrid
 from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
 
@@ -91,7 +92,7 @@ def reach(
         values = at_nodes["margin", name]
         digest = hashlib.blake2b(values.tobytes()).digest()
         if digest not in seen and np.min(values) < 0:
-            solids.append(_solid(field, values, grid, cells))
+            solids += _solids(field, values, grid, cells)
         seen.add(digest)
         tick()
     kept = {name: at_nodes["factor", name] for name in factors}
@@ -111,6 +112,15 @@ def _highest(values: NDArray[np.float32]) -> NDArray[np.float32]:
         low, high = (np.take(values, range(first, values.shape[axis] - 1 + first), axis) for first in (0, 1))
         values = np.maximum(low, high)
     return values
+
+
+def _solids(field: Field, values: NDArray[np.float32], grid: UniformGrid, cells: NDArray[np.bool_]) -> list[Manifold]:
+    """What a margin allows, as the intersection of solids: the reach of a mode that was followed has several."""
+    parts = field.parts if isinstance(field, ReachField) else ()
+    if len(parts) < 2:
+        return [_solid(field, values, grid, cells)]
+    sampled = samples(dict(enumerate(parts)), grid)
+    return [_solid(part, sampled[k], grid, cells) for k, part in enumerate(parts) if np.min(sampled[k]) < 0]
 
 
 def _solid(field: Field, values: NDArray[np.float32], grid: UniformGrid, cells: NDArray[np.bool_]) -> Manifold:

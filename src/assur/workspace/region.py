@@ -29,7 +29,7 @@ from assur.workspace.bounds import Stroke
 from assur.workspace.certified.region import unit
 from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import Field, inside_at
-from assur.workspace.followed import FollowedField
+from assur.workspace.followed_field import FollowedField
 from assur.workspace.grid import grid_over
 from assur.workspace.mode_fields import CLOSED_FORM, mode_fields
 from assur.workspace.nearness import near_volume, triangles_of

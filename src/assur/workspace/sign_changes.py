@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from assur.singularity.examples import Way
 from assur.singularity.loci import OUTPUT
-from assur.workspace.followed import FollowedField
+from assur.workspace.followed_field import FollowedField
 from assur.workspace.region import Workspace
 
 MOST = 16

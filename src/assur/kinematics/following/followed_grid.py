@@ -118,7 +118,7 @@ class Continuation:
         """Configurations at the ends."""
         return Followed(self.record, self.ends.joints)
 
-    def _index(self, points: FloatArray) -> FloatArray:
+    def index(self, points: FloatArray) -> FloatArray:
         """Points (N, d) in steps of the grid from its first node."""
         low, step = (
             np.array(values) for values in zip(*((axis[0], axis[1] - axis[0]) for axis in self.axes), strict=True)
@@ -140,7 +140,7 @@ class Continuation:
 
     def nodes(self, points: FloatArray) -> IntArray:
         """The node (N, d) next to each point (N, d)."""
-        return self._node(self._index(points))
+        return self._node(self.index(points))
 
     def _node(self, index: FloatArray) -> IntArray:
         return np.asarray(np.clip(np.rint(index), 0, np.subtract(self.reached.shape, 1)).astype(np.intp))
@@ -149,7 +149,7 @@ class Continuation:
         joints = np.full((len(points), len(self.record.coordinates)), np.nan)
         if not np.any(self.reached):
             return Followed(self.record, joints)
-        index = self._index(points)
+        index = self.index(points)
         node = self._node(index)
         nearest = self._nearest[(slice(None), *node.T)].T  # (N, d)
         at_node = np.max(np.abs(index - node), axis=1) <= SAME
@@ -167,7 +167,7 @@ class Continuation:
         On the grid's own edges it is known; an edge of two steps ends on one of its halves.
         """
         middle = 0.5 * (inside + outside)
-        far = np.sum(np.abs(self._index(outside) - self._index(inside)), axis=1)
+        far = np.sum(np.abs(self.index(outside) - self.index(inside)), axis=1)
         double = np.abs(far - 2.0) <= SAME
         later = double.copy()
         later[double] = self.at(middle[double]).reached
@@ -177,7 +177,7 @@ class Continuation:
         return np.where(double, 0.5 * (share + later), share), joints
 
     def _border(self, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
-        start, way = self._index(inside), self._index(outside) - self._index(inside)
+        start, way = self.index(inside), self.index(outside) - self.index(inside)
         node, along = np.rint(start).astype(np.intp), np.rint(way).astype(np.intp)
         single = np.sum(np.abs(along), axis=1) == 1
         single &= np.all(np.abs(start - node) <= SAME, axis=1) & np.all(np.abs(way - along) <= SAME, axis=1)
