@@ -53,10 +53,41 @@ def test_rows_are_written_as_csv_and_curves_as_a_figure(assur_cli, written):
     with (written / "rows.csv").open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     data = assur_cli("dynamics", "zeng2019", "--motion", "circle.toml", "-o", "curves.svg", "--json").json
-    assert [float(row["force yA2"]) for row in rows] == [row[1] for row in data["actuator_forces"]]
-    assert [float(row["kinetic energy"]) for row in rows] == data["kinetic_energy"]
+    assert [float(row["force yA2 [N]"]) for row in rows] == [row[1] for row in data["actuator_forces"]]
+    assert [float(row["kinetic energy [J]"]) for row in rows] == data["kinetic_energy"]
     assert data["files"] == ["curves.svg"]
     assert (written / "curves.svg").read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_rows_that_are_written_are_a_motion_again(assur_cli, written):
+    first = assur_cli("dynamics", "zeng2019", "--motion", "circle.toml", "-o", "rows.csv", "--json").json
+    again = assur_cli("dynamics", "zeng2019", "--motion", "rows.csv", "-o", "same.csv", "--json").json
+    assert again["t"] == first["t"]
+    assert np.allclose(again["pose"], first["pose"], rtol=0.0, atol=1e-12)
+    assert np.allclose(again["inputs"], first["inputs"], rtol=0.0, atol=1e-10)
+    titles = [
+        (written / name).read_text(encoding="utf-8").splitlines()[0].split(",") for name in ("rows.csv", "same.csv")
+    ]
+    assert titles[0] == titles[1]
+    assert all(title.endswith("]") for title in titles[0])
+
+
+@pytest.mark.parametrize(
+    ("titles", "row"), [("t [s],x [cm],y", "{t},{x:.17g}e-1,{y}"), ("y [m],t,x,note", "{y:.17g}e-3,{t},{x},7")]
+)
+def test_units_stand_beside_names_of_columns(assur_cli, tmp_path, titles, row):
+    places = [(0.0, 0.0, 210.0), (0.1, 4.0, 212.0), (0.2, 9.0, 211.0), (0.4, 12.0, 205.0), (0.5, 13.0, 204.0)]
+    tables = {"plain.csv": ("t,x,y", "{t},{x},{y}"), "units.csv": (titles, row)}
+    for name, (head, form) in tables.items():
+        lines = [head, *(form.format(t=t, x=x, y=y) for t, x, y in places)]
+        (tmp_path / name).write_text("\n".join(lines), encoding="utf-8")
+    plain, units = (
+        assur_cli("dynamics", "fivebar", "--motion", str(tmp_path / name), "--json").json for name in tables
+    )
+    assert np.allclose(plain["pose"], units["pose"], rtol=1e-14, atol=0.0)
+    (tmp_path / "bad.csv").write_text("t,x [N],y\n0,0,210\n", encoding="utf-8")
+    refused = assur_cli("dynamics", "fivebar", "--motion", str(tmp_path / "bad.csv"))
+    assert (refused.code, "bad.csv:1: column 2, x, cannot be in 'N'" in " ".join(refused.err.split())) == (2, True)
 
 
 def test_a_motion_that_leaves_is_refused_with_the_moment_and_the_margin(assur_cli, written):

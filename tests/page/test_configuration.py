@@ -15,9 +15,11 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import closing_system, residuals
 from assur.kinematics.pose import platform_frame, platform_twists
 from assur.mechanism import load
+from assur.model.dimensions import with_parameters
 from assur.numerics import rotations
 from assur.page.configuration import configuration
 from assur.page.graph import coordinates, graph
+from assur.page.resizing import resizing
 from catalogue import REPRESENTATIVES, each
 from folding_leg import table
 from screw_mechanisms import FIVEBAR, loaded
@@ -25,11 +27,12 @@ from screw_mechanisms import FIVEBAR, loaded
 WEB = Path(__file__).parents[2] / "web"
 READ = """
 import { readFileSync } from "node:fs";
-const { scene, configurations } = JSON.parse(readFileSync(0, "utf8"));
-const { configurationAt, modelOf } = await import(`${process.argv[1]}/src/solver/configuration.js`);
+const { scene, configurations, sizes } = JSON.parse(readFileSync(0, "utf8"));
+const { configurationAt, modelOf, resize } = await import(`${process.argv[1]}/src/solver/configuration.js`);
 const { closureRows, gaps } = await import(`${process.argv[1]}/src/solver/closure.js`);
 const { compiled } = await import(`${process.argv[1]}/test/compiled.js`);
 const model = modelOf(compiled(scene));
+if (sizes) resize(model, sizes);
 const read = (values) => {
   const at = configurationAt(model, values);
   const frames = at.frames.map(({ turn, origin }) => [...turn, ...origin]);
@@ -66,8 +69,8 @@ def record_of(tmp_path_factory):
     return made
 
 
-def in_node(record, configurations):
-    """What the page reads of joint values (N, n)."""
+def in_node(record, configurations, sizes=None):
+    """What the page reads of joint values (N, n), with other dimensions if so asked."""
     scene = {
         "graph": graph(record),
         "configuration": configuration(record),
@@ -76,8 +79,9 @@ def in_node(record, configurations):
         "platform": {"pose": list(record.platform.pose)},
         "home": record.home_values.tolist(),
         "inputs": [],
+        **resizing(record, ()),
     }
-    given = json.dumps({"scene": scene, "configurations": configurations.tolist()})
+    given = json.dumps({"scene": scene, "configurations": configurations.tolist(), "sizes": sizes})
     words = [str(shutil.which("node")), "--input-type=module", "-e", READ, str(WEB)]
     done = subprocess.run(words, input=given, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr[-2000:]
@@ -152,6 +156,32 @@ def test_everything_that_the_page_reads_is_what_python_says(record_of, name, rng
         placed = frames(record, here)
         for link, numbers in zip(graph(record)["links"], found["frames"], strict=True):
             assert np.allclose(numbers, [*placed[link][0].ravel(), *placed[link][1]], **close)
+
+
+@pytest.mark.node
+@pytest.mark.parametrize("name", [*each(quick=("zeng2019", "three_crr")), "balls"])
+def test_with_other_dimensions_the_page_reads_what_python_says_of_them(record_of, name, rng):
+    record = record_of(name)
+    sizes = resizing(record, ())["sizes"]
+    values = [item["value"] + 0.2 * (item["range"][1] - item["value"]) * rng.uniform() for item in sizes]
+    units = [np.degrees(1.0) if item["unit"] == "deg" else 1.0 for item in sizes]
+    given = {item["name"]: value * unit for item, value, unit in zip(sizes, values, units, strict=True)}
+    other = with_parameters(record, **given)
+    assert not np.allclose(characteristic_length(other), characteristic_length(record), rtol=1e-6, atol=0.0)
+    loose_values, length = loose(record, rng), characteristic_length(other)
+    for own, found in zip(loose_values, in_node(record, loose_values, values), strict=True):
+        assert np.allclose(found["gaps"], residuals(other, own).ravel(), rtol=1e-10, atol=1e-10 * length)
+        rotation, point = platform_frame(other, own)
+        assert np.allclose(found["platform"], [*rotation.ravel(), *point], rtol=1e-10, atol=1e-10 * length)
+
+
+def test_dimensions_that_strokes_depend_on_stay(tmp_path):
+    text = load("three_rps").file.read_text(encoding="utf-8")
+    path = tmp_path / "own.toml"
+    path.write_text(text.replace("stroke = [160, 320]", 'stroke = ["R - 40", 320]'), encoding="utf-8")
+    found = [resizing(load(own), ()) for own in ("three_rps", path)]
+    assert [own["sizesFixed"] for own in found] == [[], ["R"]]
+    assert [[item["name"] for item in own["sizes"]] for own in found] == [["R", "r"], ["r"]]
 
 
 @pytest.mark.parametrize("name", each())

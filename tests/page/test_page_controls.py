@@ -6,6 +6,8 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import pytest
 
+from assur.cli.pose_table import table, timed_poses
+from assur.machine.dynamics.prescribed_motion import sampled
 from assur.mechanism import load
 from catalogue import each
 
@@ -155,6 +157,62 @@ def test_a_course_begins_where_it_stands_though_its_first_frame_is_older_than_th
     tab.get_by_role("button", name="Pause").click()
     assert 0 < float(tab.get_by_label("Time", exact=True).input_value()) < 1
     tab.evaluate("() => {window.requestAnimationFrame = window.plainFrame}")
+
+
+def test_a_recorded_motion_is_a_table_that_dynamics_reads(opened, tmp_path):
+    tab = opened("zeng2019")
+    record, poses = load("zeng2019"), [tab.evaluate("window.assur.state().pose")]
+    save = tab.get_by_role("button", name="Save as CSV")
+    assert save.is_disabled()
+    tab.get_by_role("button", name="Record").click()
+    for step in range(1, 6):
+        poses.append([poses[0][0] - step, poses[0][1] + step, poses[0][2] - 5 * step])
+        assert tab.evaluate("(pose) => window.assur.toPose(pose).reason", poses[-1]) is None
+        tab.wait_for_timeout(20)
+    tab.get_by_role("button", name="Stop").click()
+    tab.evaluate("window.assur.toPose([0, 0, 400])")  # no longer recorded
+    with tab.expect_download() as saved:
+        save.click()
+    path = tmp_path / saved.value.suggested_filename
+    saved.value.save_as(path)
+    times, read = timed_poses(record, str(path))
+    assert (path.name, len(times)) == ("zeng2019-motion.csv", 6)
+    assert np.allclose(read, poses, rtol=0.0, atol=1e-6)
+    assert times[0] == 0.0
+    assert np.all(np.diff(times) > 0.0)
+    names, rows = table(record, str(path))
+    inputs = rows[:, [names.index(item.name) for item in record.inputs]]
+    gaps = np.abs(record.inverse(read).inputs - inputs[:, None])
+    assert np.all(np.min(np.max(np.nan_to_num(gaps, nan=np.inf), axis=-1), axis=-1) < 1e-6)
+    sampled(record, times, read)
+
+
+def test_sliders_change_dimensions_and_a_link_keeps_them(opened):
+    tab = opened("fivebar")
+    home = tab.evaluate("window.assur.state()")
+    tab.get_by_text("Dimensions", exact=True).first.click()
+    box = tab.get_by_label("l2 in mm", exact=True)
+    box.fill("200")
+    box.press("Enter")
+    moved = tab.evaluate("window.assur.state()")
+    wanted = load("fivebar", l2=200).direct(home["inputs"])
+    assert np.allclose(moved["inputs"], home["inputs"], rtol=0.0, atol=1e-9)
+    assert min(np.max(np.abs(own.pose - moved["pose"])) for own in wanted) < 1e-6
+    assert "--set l2=200" in tab.locator(".sizes p").last.text_content()
+    wait_for_link(tab, tab="move")
+    tab.wait_for_function("() => location.hash.includes('sizes=')")
+    there = opened("fivebar", at=tab.url)
+    assert np.allclose(there.evaluate("window.assur.state().pose"), moved["pose"], rtol=0.0, atol=1e-3)
+    assert there.evaluate("window.assur.resized")
+    box.fill("40")  # shorter than half of what they span
+    box.press("Enter")
+    assert float(box.input_value()) > 40
+    assert "parallel singularity" in tab.locator(".slider.stopped .why").last.text_content()
+    tab.keyboard.press("Escape")
+    tab.evaluate("document.activeElement.blur()")
+    tab.keyboard.press("r")
+    assert not tab.evaluate("window.assur.resized")
+    tab.get_by_text("Dimensions", exact=True).first.click()
 
 
 def test_a_course_that_cannot_be_followed_says_why(opened):

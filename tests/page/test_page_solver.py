@@ -13,10 +13,12 @@ import pytest
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closing_system
+from assur.kinematics.following.locked import general_ranks
 from assur.kinematics.naming import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.page.content import content
+from assur.view.resizing import resized
 from catalogue import each
 from folding_leg import rail, table
 from pages import content_of
@@ -26,9 +28,12 @@ STORED = WEB / "test" / "numbers.json"
 NAMES = ("zeng2019", "planar_3rrr", "three_crr", "gough_stewart", "fivebar", "delta_4s", "orthoglide")
 MODES = ("fivebar", "delta_4s", "three_crr", "orthoglide")
 KEPT = ("name", "unit", "angleUnit", "extent", "characteristicLength", "graph", "configuration", "coordinates")
-KEPT += ("platform", "inputs", "poseRange", "home", "branches", "modes")
+KEPT += ("platform", "inputs", "poseRange", "home", "branches", "modes", "sizes", "resize")
 MOVED = 0.02
 """How far inputs are moved from home, in characteristic lengths or rad."""
+
+GROWN = 1.05
+"""How many times as large a dimension becomes."""
 
 DIGITS = 9
 """After the point, of joint values that are only compared."""
@@ -69,6 +74,7 @@ def numbers(name: str) -> dict[str, Any]:
         "scene": {key: whole[key] for key in KEPT},
         "loose": {"values": loose.tolist(), "gaps": gaps[0].tolist(), "derivative": derivative[0].tolist()},
         "moves": [_move(record, length, rng) for _ in range(4)],
+        "resized": _resized(record, whole["sizes"]),
         "singular": _singular_values(record, home),
         "named": _named(record, pose) if name in MODES else [],
     }
@@ -109,6 +115,19 @@ def _move(record: Any, length: float, rng: np.random.Generator) -> dict[str, Any
     path = record.follow(record.home_values, inputs=target)
     assert path.stopped is None
     return {"inputs": target.tolist(), "pose": np.asarray(path.poses[-1]).tolist()}
+
+
+def _resized(record: Any, sizes: list[dict[str, Any]]) -> dict[str, Any]:
+    """A dimension changed a little, inputs at home's: all dimensions as the page takes them, its length, the pose."""
+    size = max(sizes, key=lambda item: item["value"] if item["unit"] == record.unit else 0.0)
+    home = record.home_values
+    found = resized(record, home, size["name"], GROWN * size["value"], "inputs", general_ranks(record, home))
+    assert not found.why
+    return {
+        "sizes": [item["value"] * (GROWN if item is size else 1.0) for item in sizes],
+        "length": characteristic_length(found.record),
+        "pose": np.asarray(pose_of(found.record, found.values)).tolist(),
+    }
 
 
 def _singular_values(record: Any, home: np.ndarray) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 import { el, figures, indexed, minus, shownUnit, symbol } from "./dom.js";
 import { holding, rangeOf, roundBelow, unwound } from "./ends.js";
+import { sizesNote } from "./source.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
@@ -16,33 +17,17 @@ class Slider {
     const ends = range.map((end) => end * factor);
     Object.assign(this, { factor, unit, places, turns, stroke, moved, least: ends, value: range[0] });
     const id = `slider-${(made += 1)}`;
-    this.range = el("input", {
-      type: "range",
-      id,
-      step: "any",
-      "aria-describedby": `${id}-why`,
-      oninput: () => this.ask(this.range.valueAsNumber),
-      onkeydown: (event) => this.pressed(event),
-    });
-    this.number = el("input", {
-      type: "number",
-      step: 10 ** -Math.min(2, this.places),
-      "aria-label": `${name} in ${unit}`,
-      inputmode: "decimal",
-      onbeforeinput: pointed,
-      onchange: () => this.typed(),
-    });
     this.why = el("p", { class: "why", id: `${id}-why` });
+    const drawn = { oninput: () => this.ask(this.range.valueAsNumber), onkeydown: (event) => this.pressed(event) };
+    this.range = el("input", { type: "range", id, step: "any", "aria-describedby": this.why.id, ...drawn });
+    const typed = { inputmode: "decimal", onbeforeinput: pointed, onchange: () => this.typed() };
+    const step = 10 ** -Math.min(2, this.places);
+    this.number = el("input", { type: "number", step, "aria-label": `${name} in ${unit}`, ...typed });
     [this.low, this.note, this.high] = [el("span"), el("span"), el("span")];
-    this.row = el(
-      "div",
-      { class: "slider" },
-      el("label", { for: id, title: name }, label),
-      this.range,
-      el("span", { class: "amount" }, this.number, el("span", { class: "unit" }, unit)),
-      el("div", { class: "ends", "aria-hidden": "true" }, this.low, this.note, this.high),
-      this.why,
-    );
+    const amount = el("span", { class: "amount" }, this.number, el("span", { class: "unit" }, unit));
+    const low = el("div", { class: "ends", "aria-hidden": "true" }, this.low, this.note, this.high);
+    const head = el("label", { for: id, title: name }, label);
+    this.row = el("div", { class: "slider" }, head, this.range, amount, low, this.why);
     this.span(ends);
   }
 
@@ -124,7 +109,7 @@ function pointed(event) {
 
 const replaced = (values, k, value) => values.map((other, j) => (j === k ? value : other));
 
-/** @returns {{inputs: HTMLElement, pose: HTMLElement}} both groups of sliders, which follow the state */
+/** @returns {{inputs: HTMLElement, pose: HTMLElement, sizes: HTMLElement|null}} groups of sliders, which follow the state */
 export function controls(mechanism) {
   const { scene, model } = mechanism;
   const fine = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(scene.extent))));
@@ -132,7 +117,7 @@ export function controls(mechanism) {
   const winds = ({ kind, counted }) => kind !== "length" && !counted; // a screw's turns are never wound back
   let last = null;
   const sliderOf = (length, given, change) => {
-    const slider = new Slider({ ...given, ...shownUnit(scene, length), places: places(length) }, (value) => {
+    const slider = new Slider({ ...shownUnit(scene, length), places: places(length), ...given }, (value) => {
       last = slider;
       change(value);
     });
@@ -150,12 +135,22 @@ export function controls(mechanism) {
     const change = (value) => mechanism.toPose(poseOfShown(model, replaced(shown().values, k, value)));
     return sliderOf(length, given, change);
   });
+  const sizes = scene.sizes.map((size, k) => {
+    const { name, unit, range } = size;
+    const pure = unit ? {} : { unit, factor: 1, places: 4 };
+    const given = { label: symbol(indexed(name)), name, range, stroke: null, turns: false, ...pure };
+    const change = (value) => mechanism.toSizes(replaced(model.sizes, k, value));
+    return sliderOf(unit === scene.unit, given, change);
+  });
+  const words = el("p", { class: "quiet" });
   const show = (anew) => {
+    model.sizes.forEach((value, k) => sizes[k].show(value, anew));
+    words.textContent = sizesNote(mechanism);
     mechanism.inputs.forEach((value, k) => inputs[k].show(value, anew));
     shown().values.forEach((value, k) => pose[k].show(value, anew));
     const { reason } = mechanism;
     const blamed = reason && inputs[scene.inputs.findIndex((item) => item.name === reason.joint)];
-    for (const slider of [...inputs, ...pose])
+    for (const slider of [...inputs, ...pose, ...sizes])
       slider.stop(reason && (slider === last || slider === blamed) ? minus(reason.text) : "");
   };
   mechanism.listen((what) => {
@@ -165,5 +160,6 @@ export function controls(mechanism) {
   show(true);
   const group = (name, sliders) =>
     el("div", { class: "sliders", role: "group", "aria-label": name }, ...sliders.map(({ row }) => row));
-  return { inputs: group("Inputs", inputs), pose: group("Pose of the platform", pose) };
+  const own = el("details", { class: "sizes" }, el("summary", {}, "Dimensions"), group("Dimensions", sizes), words);
+  return { inputs: group("Inputs", inputs), pose: group("Pose of the platform", pose), sizes: sizes.length ? own : null };
 }

@@ -30,8 +30,8 @@ export function symbol(latex) {
   return node;
 }
 
-/** Names of joint values have their index without a line: q1, rho2. */
-export const indexed = (name) => name.replace(/^([A-Za-z]+?)_?(\d+)$/, "$1_$2");
+/** Names of joint values and dimensions have their index without a line: q1, rho2, sB, betaH. */
+export const indexed = (name) => name.replace(/^([A-Za-z]+?)_?(\d+)$|^([a-z]+)([A-Z]\w*)$/, "$1$3_$2$4");
 
 /** A factor's name as a person writes it: "u1_minus_u2" is u1 − u2, "sin_alpha" is sin α. @returns {HTMLElement} */
 export function spelt(name) {
@@ -64,6 +64,13 @@ export function figures(value, count = 4) {
     return `${minus(mantissa)}·10${[...String(Number(power))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
   }
   return minus(String(Number(value.toPrecision(count))));
+}
+
+/** Saves a file. @param {Blob} blob */
+export function saved(name, blob) {
+  const link = el("a", { download: name, href: URL.createObjectURL(blob) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
 /** How lengths, or angles, are shown: their unit, and how many of it a length or a radian is. */

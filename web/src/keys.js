@@ -1,6 +1,6 @@
 /** Keys that do what buttons do, and the dialog that lists them. */
 
-import { el } from "./dom.js";
+import { el, icon } from "./dom.js";
 
 const KEYS = [
   ["Tab", "next control"],
@@ -8,28 +8,40 @@ const KEYS = [
   ["PgUp PgDn", "move a slider by ten steps"],
   ["1 – 9", "choose an assembly mode"],
   ["p", "play or pause the course"],
-  ["r", "reset"],
-  ["f", "fit the view"],
   ["g", "ghosts"],
   ["n", "letters"],
-  ["s", "save a picture"],
-  ["l", "copy a link"],
-  ["?", "this list"],
 ];
+
+/** Keys that have a button, which says what they do by an icon. */
+const ICONS = {
+  r: ["Reset", "M4 12a8 8 0 1 0 2.6-5.9M4 4v4.5h4.5"],
+  f: ["Fit the view", "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5"],
+  s: ["Save a picture", "M4 8h3.5L9 5.5h6L16.5 8H20v11H4zM12 10a3.4 3.4 0 1 0 0 6.8 3.4 3.4 0 0 0 0-6.8"],
+  l: ["Copy a link to this view", "M10 14a4 4 0 0 0 5.7 0l3-3a4 4 0 0 0-5.7-5.7l-1 1M14 10a4 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1"],
+  "?": ["Keys", "M9.2 9a2.9 2.9 0 1 1 4.2 2.6c-.9.5-1.4 1.1-1.4 2.2M12 17.2v.3"],
+};
+
+/** Buttons for calls, each with its key. @param {Record<string, Function>} calls */
+export function tools(calls) {
+  const button = ([key, [name, path]]) => {
+    const label = `${name} (${key})`;
+    const given = { type: "button", class: "tool", title: label, "aria-label": label, onclick: calls[key] };
+    return el("button", given, icon(path));
+  };
+  return el("div", { class: "tools", role: "group", "aria-label": "Tools" }, ...Object.entries(ICONS).map(button));
+}
 
 const GESTURES =
   "Drag to turn, wheel or two fingers to zoom, right button or two fingers to shift. Click a ghost to make it current.";
 
 /** @returns {HTMLDialogElement} */
 export function help() {
-  const dialog = el(
-    "dialog",
-    { class: "help", "aria-labelledby": "help-title" },
-    el("h2", { id: "help-title" }, "Keys and gestures"),
-    el("dl", {}, ...KEYS.map(([key, text]) => el("div", {}, el("dt", {}, el("kbd", {}, key)), el("dd", {}, text)))),
-    el("p", { class: "quiet" }, GESTURES),
-    el("form", { method: "dialog" }, el("button", { class: "plain", autofocus: true }, "Close")),
-  );
+  const keys = [...KEYS, ...Object.entries(ICONS).map(([key, [name]]) => [key, name.toLowerCase()])];
+  const title = el("h2", { id: "help-title" }, "Keys and gestures");
+  const row = ([key, text]) => el("div", {}, el("dt", {}, el("kbd", {}, key)), el("dd", {}, text));
+  const close = el("form", { method: "dialog" }, el("button", { class: "plain", autofocus: true }, "Close"));
+  const content = [title, el("dl", {}, ...keys.map(row)), el("p", { class: "quiet" }, GESTURES), close];
+  const dialog = el("dialog", { class: "help", "aria-labelledby": title.id }, ...content);
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
   return dialog;
 }

@@ -24,12 +24,13 @@ export function unpacked(text, count) {
 }
 
 /** The hash of a state; `mode` is the name of its assembly mode, if it has one. */
-export function hashOf({ mode, values, camera, choices }) {
+export function hashOf({ mode, values, sizes, camera, choices }) {
   const view = camera.map((value) => Number(value.toFixed(3))).join(",");
   const { tab, course, layers } = choices;
   const flags = FLAGS.map((name) => `${name}=${Number(choices[name])}`).join("&");
   const named = mode ? `mode=${encodeURIComponent(mode)}&` : "";
-  return `#${named}joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
+  const sized = sizes ? `sizes=${packed(sizes)}&` : "";
+  return `#${named}${sized}joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
 }
 
 /** A whole number below a bound. @returns {number|null} */
@@ -49,7 +50,7 @@ function cameraOf(text) {
 
 /** What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. Joint values
  * are counted; of tabs are names known, of courses and layers how many there are. */
-export function readHash(hash, { count, tabs, courses, layers }) {
+export function readHash(hash, { count, sizes, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   let damaged = false;
   const read = (name, call) => {
@@ -61,6 +62,7 @@ export function readHash(hash, { count, tabs, courses, layers }) {
   return {
     mode: read("mode", (text) => (MODE.test(text) ? text : null)),
     values: read("joints", (text) => unpacked(text, count)),
+    sizes: read("sizes", (text) => unpacked(text, sizes)),
     camera: read("view", cameraOf),
     choices: {
       tab: read("tab", (text) => (tabs.includes(text) ? text : null)),
@@ -78,16 +80,18 @@ export function readHash(hash, { count, tabs, courses, layers }) {
  * @returns {() => string} the address now */
 export function linked(mechanism, stage, choices, known, say) {
   const restore = () => {
-    const found = readHash(location.hash, { ...known, count: mechanism.model.count });
+    const { count, sizes } = mechanism.model;
+    const found = readHash(location.hash, { ...known, count, sizes: sizes.length });
     for (const [name, value] of Object.entries(found.choices)) if (value !== null) choices[name].put(value);
-    const foreign = found.values && !mechanism.restore(found.values, found.mode);
+    const foreign = found.values && !mechanism.restore(found.values, found.mode, found.sizes);
     if (found.camera) stage.view.set(found.camera);
     if (found.damaged || foreign) say("this link is damaged, or another page's: only what is understood is shown");
   };
   const address = () => {
     const chosen = Object.fromEntries(Object.entries(choices).map(([name, { read }]) => [name, read()]));
-    const { mode, values } = mechanism;
-    const hash = hashOf({ mode, values, camera: stage.view.numbers(), choices: chosen });
+    const { mode, values, resized, model } = mechanism;
+    const sizes = resized ? model.sizes : null;
+    const hash = hashOf({ mode, values, sizes, camera: stage.view.numbers(), choices: chosen });
     return location.href.split("#")[0] + hash;
   };
   let timer = 0;

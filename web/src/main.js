@@ -2,20 +2,20 @@
 
 import { Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import { controls } from "./controls.js";
-import { el, icon } from "./dom.js";
+import { el, saved } from "./dom.js";
 import { statusLine } from "./explain.js";
 import { Ghosts } from "./ghosts.js";
-import { help, shortcuts } from "./keys.js";
+import { help, shortcuts, tools } from "./keys.js";
 import { linked } from "./link.js";
 import { Mechanism } from "./mechanism.js";
 import { modeLists } from "./modes.js";
 import { check, panel } from "./panel.js";
 import { Player } from "./player.js";
 import { readout } from "./readout.js";
+import { recorder } from "./recorder.js";
 import { layerOf } from "./scene/layers.js";
-import { Letters } from "./scene/letters.js";
-import { body, linkGeometries } from "./scene/links.js";
-import { Marker } from "./scene/marker.js";
+import { Labels } from "./scene/labels.js";
+import { body, LinkGeometries } from "./scene/links.js";
 import { SPACE, Stage } from "./scene/stage.js";
 import { configurationAt } from "./solver/configuration.js";
 import { heading } from "./source.js";
@@ -30,7 +30,7 @@ function compiled(text) {
   document.head.append(el("script", {}, `window.assur = ${text};`));
   return window.assur;
 }
-for (const name of ["configuration", "kernel"]) if (scene[name]) scene[name] = compiled(scene[name]);
+for (const name of ["configuration", "kernel", "resize"]) if (scene[name]) scene[name] = compiled(scene[name]);
 
 const mechanism = new Mechanism(scene);
 const { model } = mechanism;
@@ -41,11 +41,10 @@ app.replaceChildren(place);
 const stage = new Stage(place, { dark: darkness.matches, calm });
 stage.canvas.setAttribute("role", "img");
 stage.canvas.setAttribute("aria-label", `${scene.title || scene.name} in space`);
-const geometries = linkGeometries(scene, model);
+const geometries = new LinkGeometries(scene, model);
 const current = body(model, geometries);
 stage.add(current.group);
-const letters = new Letters(scene, model, stage.root);
-const marker = new Marker(model, stage.root);
+const labels = new Labels(scene, model, stage.root);
 const point = new Mesh(
   new SphereGeometry(0.011 * scene.extent, 24, 16),
   new MeshBasicMaterial({ color: "#d55e00", toneMapped: false, depthTest: false }),
@@ -55,16 +54,15 @@ stage.root.add(point);
 
 function paint() {
   stage.setDark(darkness.matches);
-  letters.paint(darkness.matches);
-  marker.paint(darkness.matches);
+  labels.paint(darkness.matches);
   current.tint.color.set(darkness.matches ? "#dde2e9" : "#ffffff");
   placeAll();
 }
 
 function placeAll() {
+  geometries.resize(mechanism.resized);
   current.place(mechanism.values);
-  letters.place(mechanism.values);
-  marker.show(mechanism.reason, mechanism.values);
+  labels.place(mechanism.values, mechanism.reason);
   point.position.set(...configurationAt(model, mechanism.values).platform.origin);
   stage.moved();
 }
@@ -73,13 +71,16 @@ stage.frame(current.group, scene.extent);
 
 const layers = scene.layers.map((layer) => {
   const object = layerOf(layer);
-  object.visible = Boolean(layer.visible);
   stage.add(object);
-  const show = (shown) => {
-    object.visible = shown;
-    stage.keep([object], shown);
+  let wanted = Boolean(layer.visible);
+  const show = (on = wanted) => {
+    wanted = on;
+    const shown = on && !mechanism.resized; // it is of the file's dimensions
+    if (shown !== object.visible) stage.keep([Object.assign(object, { visible: shown })], shown);
   };
-  return check(layer.label.replaceAll("^2", "²"), object.visible, show, layer.colour);
+  show();
+  mechanism.listen(() => show());
+  return check(layer.label.replaceAll("^2", "²"), wanted, show, layer.colour);
 });
 const ghosts = new Ghosts(mechanism, geometries, stage, current.group);
 const player = new Player(mechanism, stage);
@@ -88,7 +89,7 @@ mechanism.listen(placeAll);
 const checks = {
   ghosts: check("Ghosts of the other assembly modes", ghosts.shown, (shown) => ghosts.show(shown)),
   letters: check("Letters", true, (shown) => {
-    letters.shown = shown;
+    labels.shown = shown;
     stage.invalidate();
   }),
   limits: check("Stop at strokes and joint limits", true, (on) => (mechanism.limits = on)),
@@ -100,9 +101,7 @@ const views = el("div", { class: "modes" }, ...sides);
 
 const { element: status, say } = statusLine(mechanism);
 const save = async () => {
-  const link = el("a", { download: `${scene.name}.png`, href: URL.createObjectURL(await stage.picture()) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  saved(`${scene.name}.png`, await stage.picture());
   say("picture saved");
 };
 const share = async () => {
@@ -115,36 +114,16 @@ const share = async () => {
   }
 };
 const dialog = help();
-const tool = (label, path, call) =>
-  el("button", { type: "button", class: "tool", title: label, "aria-label": label, onclick: call }, icon(path));
-const tools = el(
-  "div",
-  { class: "tools", role: "group", "aria-label": "Tools" },
-  tool("Reset (r)", "M4 12a8 8 0 1 0 2.6-5.9M4 4v4.5h4.5", () => reset()),
-  tool("Fit the view (f)", "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5", () => stage.fit()),
-  tool("Save a picture (s)", "M4 8h3.5L9 5.5h6L16.5 8H20v11H4zM12 10a3.4 3.4 0 1 0 0 6.8 3.4 3.4 0 0 0 0-6.8", save),
-  tool(
-    "Copy a link to this view (l)",
-    "M10 14a4 4 0 0 0 5.7 0l3-3a4 4 0 0 0-5.7-5.7l-1 1M14 10a4 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",
-    share,
-  ),
-  tool("Keys (?)", "M9.2 9a2.9 2.9 0 1 1 4.2 2.6c-.9.5-1.4 1.1-1.4 2.2M12 17.2v.3", () => dialog.showModal()),
-);
 const reset = () => {
   mechanism.reset();
   stage.look();
 };
+const calls = { r: reset, f: () => stage.fit(), s: save, l: share, "?": () => dialog.showModal() };
 
-const foot = el("div", { class: "foot" }, readout(mechanism), tools);
+const foot = el("div", { class: "foot" }, readout(mechanism), tools(calls));
 place.append(el("div", { class: "over" }, heading(scene), status, foot));
-const side = panel({
-  scene,
-  sliders: controls(mechanism),
-  player,
-  modes: modeLists(mechanism, ghosts),
-  looks: { checks: Object.values(checks), views },
-  layers,
-});
+const movers = { sliders: controls(mechanism), modes: modeLists(mechanism, ghosts), player, recorder: recorder(mechanism) };
+const side = panel({ scene, ...movers, looks: { checks: Object.values(checks), views }, layers });
 app.append(side.element, dialog);
 stage.resize();
 stage.look();
@@ -157,12 +136,8 @@ const known = { tabs: side.tabs, courses: player.courses.length, layers: layers.
 const address = linked(mechanism, stage, choices, known, say);
 
 shortcuts({
-  r: reset,
-  f: () => stage.fit(),
-  s: save,
-  l: share,
+  ...calls,
   p: () => player.toggle(),
-  "?": () => dialog.showModal(),
   g: checks.ghosts.press,
   n: checks.letters.press,
   digit: (k) => mechanism.choose(k - 1),
@@ -171,10 +146,7 @@ darkness.addEventListener("change", paint);
 stage.before.push(
   () => root.dataset.ready && ghosts.advance(), // the mechanism itself comes first
   () => stage.follow(),
-  () => {
-    const picture = [stage.view.camera, place.clientWidth, place.clientHeight, stage.scale];
-    letters.arrange(...picture, marker.arrange(...picture));
-  },
+  () => labels.arrange(stage.view.camera, place.clientWidth, place.clientHeight, stage.scale),
   () => {
     if (root.dataset.ready) return;
     requestAnimationFrame(() => {

@@ -1,10 +1,10 @@
 /** The mechanism as it stands: its joint values, its mode, and every way to move it. Knows nothing of the page. */
 
 import { residual } from "./solver/closure.js";
-import { configurationAt, modelOf } from "./solver/configuration.js";
+import { configurationAt, modelOf, resize } from "./solver/configuration.js";
 import { exceeded, limitsOf } from "./solver/limits.js";
-import { inputsOf, toInputs, toPose } from "./solver/motion.js";
-import { closestApproach } from "./solver/newton.js";
+import { inputsOf, regularKinds, toInputs, toPose, toSizes } from "./solver/motion.js";
+import { closestApproach, nearAssembly } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
 import { nearestTurn, placed, times } from "./solver/rotation.js";
 import { conditionAt, nearness } from "./solver/rates.js";
@@ -26,6 +26,9 @@ export class Mechanism {
   constructor(scene) {
     this.scene = scene;
     this.model = modelOf(scene);
+    this.sizes = this.model.sizes;
+    this.home = poseOf(this.model, scene.home);
+    regularKinds(this.model); // those of the file's dimensions
     this.limits = true;
     this.listeners = [];
     this.reset();
@@ -43,6 +46,7 @@ export class Mechanism {
 
   /** Back to home in the first mode. */
   reset() {
+    if (this.resized) resize(this.model, this.sizes);
     this.working = this.scene.branches.working;
     this.values = this.scene.home.slice();
     this.list(0);
@@ -122,9 +126,33 @@ export class Mechanism {
     return this.moved(toPose(this.model, this.values, numbers("toPose", pose, this.model.pose), this));
   }
 
+  /** To other dimensions, lengths and rad, in the order of `sizes`; inputs are held, the assembly mode is kept. */
+  toSizes(sizes) {
+    const names = this.scene.sizes.map(({ name }) => name);
+    const found = toSizes(this.model, this.values, numbers("toSizes", sizes, names), this);
+    this.carry();
+    return this.moved(found, "sizes");
+  }
+
+  /** Whether the dimensions are others than those of the file. */
+  get resized() {
+    return this.model.sizes.some((value, k) => value !== this.sizes[k]);
+  }
+
+  /** Takes the working modes along to other dimensions, at home's pose. */
+  carry() {
+    const carried = (values) => nearAssembly(this.model, values, [], this.home) ?? values;
+    this.working = this.working.map((item) => ({ ...item, values: carried(item.values) }));
+  }
+
   /** Straight to joint values that are nearly an assembly, as a link knows them, and whether they are.
-   * @param {string|null} hint the name of the assembly mode that it says, to be tried first */
-  restore(values, hint) {
+   * @param {string|null} hint the name of the assembly mode that it says, to be tried first
+   * @param {number[]|null} sizes other dimensions than those of the file */
+  restore(values, hint, sizes = null) {
+    if (sizes || this.resized) {
+      resize(this.model, sizes ?? this.sizes);
+      this.carry();
+    }
     const closed = closestApproach(this.model, values, [], null);
     if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return false;
     this.values = closed;
@@ -137,11 +165,11 @@ export class Mechanism {
     return true;
   }
 
-  moved(found) {
+  moved(found, what = "motion") {
     this.values = found.values;
     if (found.turned) this.here = null; // that working mode may have ended on the way
     this.note(found);
-    this.changed("motion");
+    this.changed(what);
     return this.state();
   }
 
@@ -216,8 +244,7 @@ export class Mechanism {
   /** That index by going back to home's pose, -1 also where there is no way (it is not sure then); and whether a parallel
    * singularity is on the way. */
   workHere() {
-    const home = poseOf(this.model, this.scene.home);
-    const { status, values, crossed } = toPose(this.model, this.values, home, FREELY);
+    const { status, values, crossed } = toPose(this.model, this.values, this.home, FREELY);
     const index = status === "moved" ? this.working.findIndex((item) => this.same(item.values, values)) : -1;
     return { index, crossed, sure: status === "moved" };
   }
@@ -227,7 +254,7 @@ export class Mechanism {
     const [pose, inputs] = [this.pose, this.inputs];
     const here = (value, k) => this.apart(value - inputs[k], this.model.inputs[k]) < SAME;
     return this.scene.modes.working.all
-      .map((signs) => this.scene.kernel(pose, this.scene.kernelParameters, signs))
+      .map((signs) => this.scene.kernel(pose, this.model.kernel, signs))
       .find((found) => found.inputs.every(here))?.factors;
   }
 
@@ -252,20 +279,10 @@ export class Mechanism {
     if (this.known) return this.known;
     const { model, values, pose, inputs, status, reason } = this;
     const { parallel, serial } = nearness(model, values);
-    this.known = {
-      values: values.slice(),
-      pose,
-      inputs,
-      residual: residual(model, values),
-      assembly: this.assembly[this.branch]?.label ?? null,
-      status,
-      reason,
-      limits: { stated: limitsOf(model).length > 0, exceeded: exceeded(model, values) },
-      condition: conditionAt(model, values),
-      smallest: parallel,
-      serial,
-      factor: this.nearestFactor(),
-    };
-    return this.known;
+    const assembly = this.assembly[this.branch]?.label ?? null;
+    const limits = { stated: limitsOf(model).length > 0, exceeded: exceeded(model, values) };
+    const measures = { condition: conditionAt(model, values), smallest: parallel, serial, factor: this.nearestFactor() };
+    const stands = { values: values.slice(), pose, inputs, residual: residual(model, values), assembly };
+    return (this.known = { ...stands, status, reason, limits, ...measures });
   }
 }

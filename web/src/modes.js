@@ -17,13 +17,10 @@ function told(item, gone = false) {
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
 export function modeLists(mechanism, ghosts) {
-  const button = (item, choose, given, ...before) =>
-    el(
-      "button",
-      { type: "button", class: "mode", "aria-pressed": "false", title: told(item), onclick: choose, ...given },
-      ...before,
-      named(item),
-    );
+  const button = (item, choose, given, ...before) => {
+    const own = { type: "button", class: "mode", "aria-pressed": "false", title: told(item), onclick: choose, ...given };
+    return el("button", own, ...before, named(item));
+  };
   const ghost = (item, k) => {
     const [light, dim] = [() => ghosts.light(k), () => ghosts.light(-1)];
     const given = { onpointerenter: light, onpointerleave: dim, onfocus: light, onblur: dim };

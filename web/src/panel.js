@@ -39,7 +39,7 @@ function tabs(pages) {
     const tab = { type: "button", role: "tab", id: `tab-${id}`, "aria-controls": id, onclick: () => choose(k) };
     const page = { role: "tabpanel", id, "aria-labelledby": tab.id, class: "tabpage", tabindex: item.text ? 0 : -1 };
     item.tab = el("button", tab, item.name);
-    item.page = el("div", page, ...item.content);
+    item.page = el("div", page, ...item.content.filter(Boolean));
     list.append(item.tab);
   });
   list.addEventListener("keydown", (event) => {
@@ -79,16 +79,17 @@ const note = (text) => (text ? el("p", { class: "quiet" }, minus(text)) : "");
 const count = (list) => (list.length > 1 ? String(list.length) : "");
 
 /** @returns {{element: HTMLElement, tabs: string[], tab: {read: () => string, put: (name: string) => void}}} */
-export function panel({ scene, sliders, player, modes, looks, layers }) {
+export function panel({ scene, sliders, player, recorder, modes, looks, layers }) {
   const { list, pages, names, chosen } = tabs([
     {
       name: "Move",
       content: [
         section("Inputs", "", sliders.inputs),
         section("Pose", `of ${scene.platform.link}`, sliders.pose),
-        section("Course", "", player.element),
+        section("Course", "", player.element, recorder),
         section("Assembly modes", "", modes.assembly),
         section("Working modes", count(scene.branches.working), modes.working),
+        sliders.sizes,
       ],
     },
     {

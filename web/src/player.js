@@ -17,15 +17,8 @@ export class Player {
     stage.root.add(this.trail);
     this.choice = el("select", { "aria-label": "Course", onchange: () => this.fresh() });
     this.button = el("button", { type: "button", class: "play", onclick: () => this.toggle() });
-    this.bar = el("input", {
-      type: "range",
-      min: 0,
-      max: 1,
-      step: 0.001,
-      value: 0,
-      "aria-label": "Time",
-      oninput: () => this.seek(this.bar.valueAsNumber),
-    });
+    const moved = () => this.seek(this.bar.valueAsNumber);
+    this.bar = el("input", { type: "range", max: 1, step: 0.001, value: 0, "aria-label": "Time", oninput: moved });
     this.note = el("p", { class: "why", role: "status" });
     this.courses = coursesOf(mechanism);
     this.choice.append(...this.courses.map((_, k) => el("option", { value: k })));
@@ -41,13 +34,11 @@ export class Player {
 
   /** Which course is chosen, for a link. */
   get course() {
-    return {
-      read: () => Number(this.choice.value),
-      put: (index) => {
-        this.choice.value = index;
-        this.fresh();
-      },
+    const put = (index) => {
+      this.choice.value = index;
+      this.fresh();
     };
+    return { read: () => Number(this.choice.value), put };
   }
 
   /** Names every course by its size: that in which it is followed, else the largest that is tried. */

@@ -33,19 +33,23 @@ export function heading(scene) {
   return el("header", { class: "title" }, el("h1", {}, title || name), el("p", {}, below));
 }
 
+/** What follows from dimensions that are not the file's, and how to have them everywhere. @returns {string} */
+export function sizesNote({ resized, model, sizes, scene }) {
+  const fixed = scene.sizesFixed.join(", ");
+  if (!resized) return fixed && `${fixed}: strokes or limits of the file depend on them, so they stay.`;
+  const shown = (value, unit) => Number((unit === "deg" ? value * (180 / Math.PI) : value).toPrecision(6));
+  const set = ({ name, unit }, k) => (model.sizes[k] === sizes[k] ? [] : [`--set ${name}=${shown(model.sizes[k], unit)}`]);
+  const changed = scene.sizes.flatMap(set);
+  return `Links are drawn as bars, and layers are left out, until r resets all. For a whole page: assur page … ${changed.join(" ")}`;
+}
+
 /** A table of the dimensions, and what differs; those that are not the original's have both values. */
 export function dimensions(scene) {
   const { parameters, original } = scene;
   const row = ({ name, value, unit, meaning, original: other }) => {
     const was = other === null ? null : el("div", { class: "was" }, `${original.name}: ${exact(other)}`);
-    return el(
-      "tr",
-      { class: was ? "differs" : null },
-      el("th", { scope: "row" }, name),
-      el("td", {}, exact(value)),
-      el("td", {}, UNITS[unit] ?? unit),
-      el("td", {}, minus(meaning), was),
-    );
+    const cells = [[exact(value)], [UNITS[unit] ?? unit], [minus(meaning), was]].map((cell) => el("td", {}, ...cell));
+    return el("tr", { class: was ? "differs" : null }, el("th", { scope: "row" }, name), ...cells);
   };
   return el("table", {}, el("tbody", {}, ...parameters.map(row)));
 }

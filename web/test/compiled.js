@@ -1,6 +1,6 @@
 /** Scenes as a page makes them of what Python has written: their programs run. */
 
-const PROGRAMS = ["configuration", "kernel"];
+const PROGRAMS = ["configuration", "kernel", "resize"];
 
 /** The scene with its programs as functions. */
 export const compiled = (scene) => ({

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { hashOf, packed, readHash, unpacked } from "../src/link.js";
 import { apart } from "./numbers.js";
 
-const KNOWN = { count: 4, tabs: ["move", "show", "facts"], courses: 5, layers: 3 };
+const KNOWN = { count: 4, sizes: 2, tabs: ["move", "show", "facts"], courses: 5, layers: 3 };
 const UNHARMED = ["", "#"];
 const NONE = { tab: null, course: null, layers: null, ghosts: null, letters: null, limits: null };
 
@@ -14,7 +14,8 @@ test("an address brings back what it says", () => {
     { tab: "show", course: 4, layers: [0, 2], ghosts: false, letters: true, limits: false },
     { tab: "facts", course: 0, layers: [], ghosts: true, letters: false, limits: true },
   ]) {
-    const found = readHash(hashOf({ mode: "+-b~Pa1", values, camera, choices }), KNOWN);
+    const found = readHash(hashOf({ mode: "+-b~Pa1", values, sizes: [70, 0.5], camera, choices }), KNOWN);
+    assert.deepEqual(found.sizes, [70, 0.5]);
     assert.equal(found.mode, "+-b~Pa1");
     assert.deepEqual(found.camera, camera);
     assert.ok(apart(found.values, values) < 1e-2);
@@ -35,7 +36,9 @@ test("an address that the page wrote is never called damaged", () => {
 
 test("an address of before there were choices says nothing of them", () => {
   const found = readHash(`#mode=%2B&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
-  assert.deepEqual(found, { mode: "+", damaged: false, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
+  assert.deepEqual(found, {
+    mode: "+", damaged: false, values: [1, 2, 3, 4], sizes: null, camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE,
+  });
 });
 
 test("an address that makes no sense changes nothing", () => {
@@ -43,6 +46,7 @@ test("an address that makes no sense changes nothing", () => {
     "",
     "#",
     "#mode=9%2F2&joints=!!&view=1,2",
+    `#sizes=${packed([1, 2, 3])}`,
     "#mode=&joints=&view=&tab=&course=&ghosts=&letters=&limits=",
     "#mode=%3C&joints=AAAA&view=a,b,c,d,e,f",
     `#joints=${packed([NaN, 1, 1, 1])}&view=1,,1,0,0,0`,
@@ -52,7 +56,7 @@ test("an address that makes no sense changes nothing", () => {
   ])
     assert.deepEqual(
       readHash(hash, KNOWN),
-      { mode: null, values: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
+      { mode: null, values: null, sizes: null, camera: null, choices: NONE, damaged: !UNHARMED.includes(hash) },
       hash,
     );
 });

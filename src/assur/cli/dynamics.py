@@ -45,7 +45,7 @@ def dynamics(
         Parameter(
             name=("-o", "--output"),
             metavar="FILE",
-            help="Rows by moments as .csv, in SI and rad, or a figure as .png, .pdf or .svg.",
+            help="Rows by moments as .csv, which --motion reads again, or a figure as .png, .pdf or .svg.",
         ),
     ] = None,
     shared: Shared = SHARED_DEFAULTS,
@@ -54,9 +54,10 @@ def dynamics(
 
     The file has the pose in the mechanism's units: [harmonic] centre, amplitude,
     omega [rad/s], phase [rad] with pose = centre + amplitude sin(omega t + phase),
-    or [samples] t, pose; or a .csv with columns t, x, y, z. It is followed in one mode; where it leaves that, the
-    workspace or the limits of the file it is refused, with the moment and the
-    margin. Answers: peak and rms of each actuator and its share of the limits of
+    or [samples] t, pose; or a .csv with columns t, x, y, z, with units as
+    "x [m]" or without, as a page records and -o writes it. It is followed in one
+    mode; where it leaves that, the workspace or the limits of the file it is
+    refused, with the moment and the margin. Answers: peak and rms of each actuator and its share of the limits of
     force, speed and power. With --forward the equation of motion is integrated,
     loops closed at every step, from rest at pose = .. until t_end = .., by
     constant [forces] or by t and values in it; a limit or a singularity ends it.

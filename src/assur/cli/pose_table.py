@@ -1,8 +1,10 @@
-"""Tables that somebody measured, in the file's units: a line of names, then a line for each pose."""
+"""Tables of poses: a line of names, then a line for each pose, in the file's units or in those beside the names."""
 
 from __future__ import annotations
 
 import csv
+import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,16 +13,22 @@ from numpy.typing import NDArray
 from assur.cli.numbers import NUMBER
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import pose_from_border
+from assur.kinematics.validation.check import METRES
 from assur.machine.calibration.measured import DISTANCE, READ, TURNS, Measured, measured_of
 from assur.mechanism import Mechanism
-from assur.model.pose import LENGTHS
+from assur.model.pose import ANGLES, LENGTHS
+
+TITLE = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
+ANGLE_UNITS = {"deg": math.radians(1.0), "rad": 1.0}
 
 
 def pose_table(record: Mechanism, path: str) -> NDArray[np.float64]:
     """Poses (N, m) in lengths and rad, of a .csv whose first line names the coordinates of the pose in any order.
 
+    Other columns are left aside.
+
     Errors:
-        UsageError: columns that are not the pose's, and what `table` refuses.
+        UsageError: no column of a coordinate, one that is named twice, and what `table` refuses.
     """
     return _poses(record, path, ())[1]
 
@@ -33,9 +41,9 @@ def timed_poses(record: Mechanism, path: str) -> tuple[NDArray[np.float64], NDAr
 
 def _poses(record: Mechanism, path: str, others: tuple[str, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Other columns (N, k) of a table, and poses (N, m)."""
-    names, rows = table(path)
+    names, rows = table(record, path)
     wanted = (*others, *record.platform.pose)
-    if sorted(names) != sorted(wanted):
+    if any(names.count(name) != 1 for name in wanted):
         told = " and ".join([*others, "the pose"])
         raise UsageError(
             f"{path}:1: columns {', '.join(names) or 'none'} are not those of {told}",
@@ -55,7 +63,7 @@ def measurements(
         UsageError: a column of an input that is not there, one that is named twice or is none of what can be measured,
             and what `table` refuses.
     """
-    names, rows = table(path)
+    names, rows = table(record, path)
     inputs = [item.name for item in record.inputs]
     lengths = [name for name in LENGTHS if name in record.platform.pose] or TURNS
     hint = f"the first line: {','.join([*inputs, *lengths])}; to be measured are {', '.join(READ)}"
@@ -75,21 +83,42 @@ def measurements(
     return given, measured, rows[:, [names.index(name) for name in others]] * read_units
 
 
-def table(path: str) -> tuple[list[str], NDArray[np.float64]]:
-    """Names, and numbers (N, columns); empty lines do not count.
+def table(record: Mechanism, path: str) -> tuple[list[str], NDArray[np.float64]]:
+    """Names, and numbers (N, columns) in the file's units; empty lines do not count.
+
+    A unit may stand beside a name, as "x [m]" or "theta1 [rad]"; without one a column is in the file's unit.
 
     Errors:
-        UsageError: a file that cannot be read, a line of another length, what is no finite number, no lines.
+        UsageError: a file that cannot be read, a line of another length, what is no finite number, no lines, a unit
+            that is none of the column's kind.
     """
     try:
         lines = list(csv.reader(Path(path).read_text(encoding="utf-8-sig").splitlines()))
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"cannot read {path}: {getattr(error, 'strerror', None) or 'no text in UTF-8'}") from error
-    names = [name.strip() for name in lines[0]] if lines else []
+    names, sizes = _columns(record, path, lines[0] if lines else [])
     rows = [_row(path, number, line, names) for number, line in enumerate(lines[1:], 2) if any(map(str.strip, line))]
     if not rows:
         raise UsageError(f"{path}: no poses", hint="one line each, after the names")
-    return names, np.array(rows)
+    return names, np.array(rows) * sizes
+
+
+def _columns(record: Mechanism, path: str, titles: list[str]) -> tuple[list[str], list[float]]:
+    """Names of columns, and how many of the file's units one of each column's is."""
+    inputs = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    lengths = {**dict.fromkeys((*LENGTHS, DISTANCE), True), **dict.fromkeys((*TURNS, *ANGLES), False), **inputs}
+    names, sizes = [], []
+    for place, title in enumerate(titles, 1):
+        name, unit = TITLE.fullmatch(title.strip()).groups()  # type: ignore[union-attr]  # every text matches
+        known, own = (METRES, record.unit) if lengths.get(name) else (ANGLE_UNITS, record.angle)
+        if name not in lengths:
+            known, own = {"s" if name == "t" else str(unit): 1.0}, unit
+        if unit is not None and unit not in known:
+            hint = f"one of {', '.join(known)}, or the name alone: the file's unit"
+            raise UsageError(f"{path}:1: column {place}, {name}, cannot be in '{unit}'", hint=hint)
+        names.append(name)
+        sizes.append(1.0 if unit in (None, own) else known[str(unit)] / known[own])
+    return names, sizes
 
 
 def _row(path: str, number: int, line: list[str], names: list[str]) -> list[float]:

@@ -218,28 +218,29 @@ def _units(record: Mechanism) -> dict[str, str]:
 
 
 def rows_text(answer: DynamicsAnswer) -> str:
-    """Rows by moments as CSV, in SI units."""
-    rates = rate_names(answer.coordinates)
-    blocks = (
-        (answer.coordinates, answer.pose),
-        ([f"d {name}/dt" for name in rates], answer.velocity),
-        ([f"d2 {name}/dt2" for name in rates], answer.acceleration),
-        (answer.input_names, answer.inputs),
-        ([f"d {name}/dt" for name in answer.input_names], answer.input_rates),
-        ([f"force {name}" for name in answer.input_names], answer.actuator_forces),
-        ([f"friction {name}" for name in answer.input_names], answer.friction),
-        ([f"power {name}" for name in answer.input_names], answer.power),
-        (
-            ["kinetic energy", "potential energy"],
-            list(zip(answer.kinetic_energy, answer.potential_energy, strict=True)),
-        ),
-    )
-    kept = [(names, rows) for names, rows in blocks if rows]
+    """Rows by moments as CSV, each column with its unit; `assur.cli.pose_table` reads its times and poses again."""
+    rates, inputs = rate_names(answer.coordinates), answer.input_names
+    blocks = {
+        "pose": answer.coordinates,
+        "velocity": [f"d {name}/dt" for name in rates],
+        "acceleration": [f"d2 {name}/dt2" for name in rates],
+        "inputs": inputs,
+        "input_rates": [f"d {name}/dt" for name in inputs],
+        "actuator_forces": [f"force {name}" for name in inputs],
+        "friction": [f"friction {name}" for name in inputs],
+        "power": [f"power {name}" for name in inputs],
+        "kinetic_energy": ["kinetic energy"],
+        "potential_energy": ["potential energy"],
+    }
+    columns, rows = ["t [s]"], [[time] for time in answer.t]
+    for key, names in blocks.items():
+        block = np.array(getattr(answer, key))
+        if len(block):
+            units = answer.units[key].split(", ")
+            columns += [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
+            rows = [[*row, *values] for row, values in zip(rows, block.reshape(len(rows), -1).tolist(), strict=True)]
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["t", *(name for names, _ in kept for name in names)])
-    for place, time in enumerate(answer.t):
-        writer.writerow([repr(value) for value in (time, *(value for _, rows in kept for value in rows[place]))])
+    csv.writer(text, lineterminator="\n").writerows([columns, *([repr(value) for value in row] for row in rows)])
     return text.getvalue()
 
 

@@ -11,20 +11,21 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import closing_numbers
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.recording.javascript import javascript, number_text
+from assur.page.resizing import general
 
 
 def configuration(record: MechanismRecord) -> str:
     """JavaScript source of a function that works out where a configuration stands and how far its loops are open.
 
     `function (s, d, n)`: the numbers of all steps (`assur.joint_graph.state.state_names`), then nine
-    for each ball joint (`ball_rates`); dimensions as `assur.joint_graph.graph_program.dimensions` lists them. It
+    for each ball joint (`ball_rates`); dimensions as `assur.page.resizing.general_dimensions` lists them. It
     fills in what is not zero of numbers n that are: matrices row by row, one after the other as `matrices` gives them.
 
     >>> from assur.model.registry import load_record
     >>> configuration(load_record("fivebar")).splitlines()[0]
     'function (s, d, n) {'
     """
-    found = program(record, configuration_numbers)
+    found = program(general(record), configuration_numbers)
     starts = _starts(record)
     targets = {name: [f"n[{_place(name, starts)}]"] for name in found.tape.outputs}
     constants = (f"n[{_place(name, starts)}]={number_text(value)};" for name, value in found.constants.items() if value)

@@ -21,6 +21,7 @@ from assur.page.graph import coordinates, graph
 from assur.page.origin import Original, original
 from assur.page.quantised import quantised
 from assur.page.ranges import input_ranges, pose_ranges
+from assur.page.resizing import resizing
 from assur.scene.companion import companion
 from assur.scene.layers import Layer
 from assur.scene.letters import letters
@@ -51,6 +52,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
     home = home_values(record)
     drawn = companion(record)
     body = skeleton(record, drawn, home)
+    lettered = letters(body)
     source = original(record)
     return {
         "version": VERSION,
@@ -63,6 +65,8 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "extent": body.size,
         "characteristicLength": characteristic_length(record),
         "parameters": _parameters(record, source),
+        **resizing(record, lettered),
+        **resizing(record, lettered),
         "original": None if source is None else {"name": source.name},
         "graph": graph(record),
         "configuration": configuration(record),
@@ -78,7 +82,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "branches": branches(record),
         "modes": modes(record),
         "parts": _parts(machine(record), body.size),
-        "letters": [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in letters(body)],
+        "letters": [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in lettered],
         "layers": [_layer(item) for item in layers],
         "layersNote": layers_note,
         "kernel": kernel.kernel(record),

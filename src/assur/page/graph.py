@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from assur.joint_graph.frames import placed_links
-from assur.joint_graph.graph_program import dimensions
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.turns import counted, joint_units
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.page.resizing import general_dimensions
 
 
 def graph(record: MechanismRecord) -> dict[str, Any]:
@@ -32,7 +32,7 @@ def graph(record: MechanismRecord) -> dict[str, Any]:
             for step, first in joint.type.places
         ],
         "cut": [place[joint.name] for joint in found.cut],
-        "dimensions": dimensions(record),
+        "dimensions": general_dimensions(record),
     }
 
 

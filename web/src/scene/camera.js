@@ -18,13 +18,8 @@ export class Camera {
     this.camera = new PerspectiveCamera(30, 1, 0.02, 60);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, element);
-    Object.assign(this.controls, {
-      enableDamping: !calm,
-      dampingFactor: 0.12,
-      minDistance: NEAREST,
-      maxDistance: FURTHEST,
-      zoomToCursor: true,
-    });
+    const distances = { minDistance: NEAREST, maxDistance: FURTHEST, zoomToCursor: true };
+    Object.assign(this.controls, { enableDamping: !calm, dampingFactor: 0.12, ...distances });
     this.controls.addEventListener("start", () => {
       this.held = true;
       this.goal = null;

@@ -1,14 +1,6 @@
 /** Layers in the base frame: workspace, singular surfaces, sections' outlines, and forces over all, unpacked from small integers. */
 
-import {
-  BufferAttribute,
-  BufferGeometry,
-  DoubleSide,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
-  MeshLambertMaterial,
-} from "three";
+import * as THREE from "three";
 
 const STEPS = 65535;
 
@@ -25,13 +17,13 @@ function positions({ vertices, low, high }) {
 
 /** @returns {import("three").Object3D} a layer: a translucent surface, or lines */
 export function layerOf(layer) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(positions(layer), 3));
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions(layer), 3));
   const faces = bytes(layer.faces);
-  geometry.setIndex(new BufferAttribute(layer.wide ? new Uint32Array(faces) : new Uint16Array(faces), 1));
+  geometry.setIndex(new THREE.BufferAttribute(layer.wide ? new Uint32Array(faces) : new Uint16Array(faces), 1));
   const { colour: color, opacity, kind } = layer;
-  if (layer.primitive === "segments") return new LineSegments(geometry, new LineBasicMaterial({ color }));
+  if (layer.primitive === "segments") return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color }));
   geometry.computeVertexNormals();
-  const look = { color, transparent: true, opacity, side: DoubleSide, depthWrite: false, depthTest: kind !== "force" };
-  return Object.assign(new Mesh(geometry, new MeshLambertMaterial(look)), { renderOrder: 4 });
+  const look = { color, transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false, depthTest: kind !== "force" };
+  return Object.assign(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial(look)), { renderOrder: 4 });
 }

@@ -4,14 +4,41 @@ import { Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMateri
 import { configurationAt } from "../solver/configuration.js";
 import { joined } from "./shapes.js";
 
-/** Geometry of every link that has parts. @returns {Map<number, import("three").BufferGeometry>} */
-export function linkGeometries(scene, model) {
-  const found = new Map();
-  model.links.forEach((name, k) => {
-    const parts = scene.parts.filter((part) => part.link === name);
-    if (parts.length) found.set(k, joined(parts));
-  });
-  return found;
+/** Solids of the file's dimensions by their link; with others, bars between the middle and the joints of each. */
+export class LinkGeometries extends Map {
+  constructor(scene, model) {
+    super();
+    model.links.forEach((name, k) => {
+      const parts = scene.parts.filter((part) => part.link === name);
+      if (parts.length) this.set(k, joined(parts));
+    });
+    this.solids = new Map(this);
+    Object.assign(this, { scene, model, sizes: model.sizes });
+  }
+
+  /** Follows the model to its dimensions. */
+  resize(resized) {
+    const { model, sizes, scene } = this;
+    if (sizes === model.sizes) return;
+    this.sizes = model.sizes;
+    for (const [link, solid] of this.solids) {
+      if (this.get(link) !== solid) this.get(link).dispose();
+      this.set(link, resized ? joined(bars(scene, model, link)) : solid);
+    }
+  }
+}
+
+function bars({ parts, extent }, { joints, links }, link) {
+  const { colour } = parts.find((part) => part.link === links[link]);
+  const ends = joints.flatMap(({ parent, child, at, childAt }) => [
+    ...(parent === link ? [at] : []),
+    ...(child === link ? [childAt] : []),
+  ]);
+  const middle = [0, 1, 2].map((k) => ends.reduce((sum, end) => sum + end[k], 0) / ends.length);
+  const radius = 0.009 * extent;
+  const balls = ends.map((centre) => ({ kind: "ball", centre, radius: 1.4 * radius }));
+  const ways = link === 0 ? [] : ends.map((end) => ({ kind: "cylinder", start: middle, end, radius }));
+  return [...balls, ...ways].map((shape) => ({ shape, colour }));
 }
 
 /** Plain and lit; its own colour dims all parts, as a dark page wants it. */
@@ -50,7 +77,10 @@ export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
   }
   const place = (values) => {
     const { frames } = configurationAt(model, values);
-    for (const [link, mesh] of meshes) setFrame(mesh, frames[link]);
+    for (const [link, mesh] of meshes) {
+      for (const each of [mesh, ...mesh.children]) each.geometry = geometries.get(link);
+      setFrame(mesh, frames[link]);
+    }
   };
   return { group, place, tint };
 }

@@ -12,14 +12,8 @@ const vector = (numbers) => new Vector3(...numbers);
 /** A plane outline extruded both ways from its plane, its edges bevelled. */
 function prism(outline, thickness, thinnest) {
   const bevel = Math.min(BEVEL * thinnest, 0.3 * thickness);
-  const geometry = new ExtrudeGeometry(outline, {
-    depth: thickness - 2 * bevel,
-    bevelThickness: bevel,
-    bevelSize: bevel,
-    bevelOffset: -bevel,
-    bevelSegments: 1,
-    curveSegments: ROUND,
-  });
+  const edges = { bevelThickness: bevel, bevelSize: bevel, bevelOffset: -bevel, bevelSegments: 1 };
+  const geometry = new ExtrudeGeometry(outline, { depth: thickness - 2 * bevel, curveSegments: ROUND, ...edges });
   geometry.translate(0, 0, bevel - thickness / 2);
   return toCreasedNormals(geometry, CREASE);
 }

@@ -1,20 +1,6 @@
 /** The stage: renderer, light with soft shadows, floor, and one picture whenever something has changed. */
 
-import {
-  Box3,
-  DirectionalLight,
-  Group,
-  HemisphereLight,
-  Mesh,
-  MeshBasicMaterial,
-  NeutralToneMapping,
-  PCFShadowMap,
-  PlaneGeometry,
-  Scene,
-  ShadowMaterial,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import * as THREE from "three";
 import { Camera } from "./camera.js";
 import { outline } from "./outline.js";
 import { drawn } from "./sprites.js";
@@ -30,34 +16,35 @@ const LOOKS = {
 export class Stage {
   constructor(element, { dark, calm }) {
     this.element = element;
-    this.renderer = new WebGLRenderer({ antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: true });
     this.slow = drawnByProcessor(this.renderer.getContext());
-    Object.assign(this.renderer, { toneMapping: NeutralToneMapping, toneMappingExposure: 1.12 });
+    Object.assign(this.renderer, { toneMapping: THREE.NeutralToneMapping, toneMappingExposure: 1.12 });
     // the sun stands; only what moves changes shadows
-    Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap, autoUpdate: false });
+    Object.assign(this.renderer.shadowMap, { enabled: true, type: THREE.PCFShadowMap, autoUpdate: false });
     this.canvas = this.renderer.domElement;
     element.prepend(this.canvas);
-    this.scene = new Scene();
-    this.root = new Group(); // the mechanism in its own unit, scaled so that it is about 1 large
+    this.scene = new THREE.Scene();
+    this.root = new THREE.Group(); // the mechanism in its own unit, scaled so that it is about 1 large
     this.scene.add(this.root);
     this.before = []; // called before each picture
     this.objects = []; // the mechanism, its ghosts and layers: what a view can be fitted to
     this.kept = new Set(); // what is to stay in the picture: the mechanism, and what somebody switched on
     this.view = new Camera(this.canvas, () => this.invalidate(), calm);
     this.light();
+    this.floor();
     this.setDark(dark);
     new ResizeObserver(() => this.resize()).observe(element);
   }
 
   /** Sky and ground from all sides, a sun with shadows, and two lights that round off what it leaves dark. */
   light() {
-    this.sky = new HemisphereLight("#ffffff", "#c9d0da", 1);
+    this.sky = new THREE.HemisphereLight("#ffffff", "#c9d0da", 1);
     this.sky.position.set(0, 0, 1);
-    this.sun = new DirectionalLight("#fff4e4", 1);
+    this.sun = new THREE.DirectionalLight("#fff4e4", 1);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.setScalar(this.slow ? 1024 : 2048);
     Object.assign(this.sun.shadow, { radius: this.slow ? 2 : 3.5, bias: -0.0004, normalBias: 0.006 });
-    const [fill, rim] = [new DirectionalLight("#e6eeff", 1.0), new DirectionalLight("#ffffff", 0.9)];
+    const [fill, rim] = [new THREE.DirectionalLight("#e6eeff", 1.0), new THREE.DirectionalLight("#ffffff", 0.9)];
     fill.position.set(1.5, -0.6, 0.5);
     rim.position.set(-0.4, 1.2, 0.5);
     this.scene.add(this.sky, this.sun, this.sun.target, fill, rim);
@@ -76,15 +63,19 @@ export class Stage {
     this.kept.add(group);
     const points = outline(group);
     const { centre, radius } = this.shine(points);
-    this.floor(centre, radius, Math.min(...points.map((point) => point.z)) - 0.012);
+    const level = Math.min(...points.map((point) => point.z)) - 0.012;
+    for (const [mesh, size] of [[this.lines, 9], [this.shade, 5]]) {
+      mesh.position.set(centre.x, centre.y, level);
+      mesh.scale.setScalar(size * radius);
+    }
   }
 
-  /** Turns the sun to points, so that all of them have shadows. @returns {{centre: Vector3, radius: number}} */
+  /** Turns the sun to points, so that all of them have shadows. @returns {{centre: THREE.Vector3, radius: number}} */
   shine(points) {
-    const seen = new Box3().setFromPoints(points);
-    const centre = seen.getCenter(new Vector3());
-    const radius = seen.getSize(new Vector3()).length() / 2;
-    this.sun.position.copy(centre).add(new Vector3(-0.55, -0.75, 1.5).multiplyScalar(2.2 * radius));
+    const seen = new THREE.Box3().setFromPoints(points);
+    const centre = seen.getCenter(new THREE.Vector3());
+    const radius = seen.getSize(new THREE.Vector3()).length() / 2;
+    this.sun.position.copy(centre).add(new THREE.Vector3(-0.55, -0.75, 1.5).multiplyScalar(2.2 * radius));
     this.sun.target.position.copy(centre);
     const [low, high] = [-1.5 * radius, 1.5 * radius];
     Object.assign(this.sun.shadow.camera, { left: low, right: high, bottom: low, top: high, near: 0.1, far: 9 * radius });
@@ -126,17 +117,15 @@ export class Stage {
     this.view.glide(points);
   }
 
-  floor(centre, radius, level) {
-    const plane = (side) => new PlaneGeometry(side * radius, side * radius);
-    this.shade = new Mesh(plane(5), new ShadowMaterial({ opacity: 0.25, depthWrite: false }));
+  /** Lines, and what takes shadows. */
+  floor() {
+    const look = { transparent: true, depthWrite: false, toneMapped: false };
+    const plane = new THREE.PlaneGeometry(1, 1);
+    this.lines = new THREE.Mesh(plane, new THREE.MeshBasicMaterial(look));
+    this.shade = new THREE.Mesh(plane, new THREE.ShadowMaterial({ depthWrite: false }));
     this.shade.receiveShadow = true;
-    this.lines = new Mesh(plane(9), new MeshBasicMaterial({ transparent: true, depthWrite: false, toneMapped: false }));
-    for (const mesh of [this.lines, this.shade]) {
-      mesh.position.set(centre.x, centre.y, level);
-      mesh.renderOrder = -1;
-      this.scene.add(mesh);
-    }
-    this.paintFloor();
+    this.lines.renderOrder = this.shade.renderOrder = -1;
+    this.scene.add(this.lines, this.shade);
   }
 
   setDark(dark) {
@@ -144,14 +133,10 @@ export class Stage {
     this.scene.background = gradient(this.colours);
     this.sky.intensity = this.colours.sky;
     this.sun.intensity = this.colours.sun;
-    if (this.lines) this.paintFloor();
-    this.invalidate();
-  }
-
-  paintFloor() {
     this.shade.material.opacity = this.colours.shadow;
     this.lines.material.map = grid(this.colours.grid, this.slow ? 2 : 8);
     this.lines.material.needsUpdate = true;
+    this.invalidate();
   }
 
   resize() {

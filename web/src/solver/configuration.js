@@ -5,7 +5,7 @@
  * is left here is where the steps stand that joints are made of: lengths, cosines and sines, quaternions.
  */
 
-import { leftJacobian, quaternionOf } from "./rotation.js";
+import { leftJacobian, norm, quaternionOf } from "./rotation.js";
 
 /** @typedef {{turn: ArrayLike<number>, origin: ArrayLike<number>}} Frame nine numbers row by row, and three, in the base frame */
 
@@ -19,12 +19,15 @@ const STATE = {
 
 /** What of a scene is computed with: its joint graph, links as numbers; `balls`: the first joint value of each. */
 export function modelOf(scene) {
-  const { graph, coordinates, inputs, unit, home, characteristicLength: length } = scene;
+  const { graph, coordinates, inputs, unit, home, sizes = [], characteristicLength: length } = scene;
   const place = (name) => graph.links.indexOf(name);
   const balls = graph.steps.filter(({ kind }) => kind === "ball");
   return {
     ...graph,
     program: scene.configuration,
+    resize: scene.resize,
+    sizes: sizes.map(({ value }) => value),
+    kernel: scene.kernelParameters,
     joints: graph.joints.map((joint) => ({ ...joint, parent: place(joint.parent), child: place(joint.child) })),
     balls: balls.map(({ first }) => first),
     coordinates,
@@ -34,9 +37,23 @@ export function modelOf(scene) {
     count: home.length,
     unit,
     length,
-    scale: coordinates.map(({ kind }) => (kind === "length" ? length : 1)),
-    units: coordinates.map(({ size }) => size),
+    own: length,
+    ...scales(coordinates, length, length),
   };
+}
+
+/** What a change of one is of each joint value, screws as they advance (`units`) or as they turn. */
+const scales = (coordinates, length, own) => ({
+  scale: coordinates.map(({ kind }) => (kind === "length" ? length : 1)),
+  units: coordinates.map(({ kind, size }) => (kind !== "length" && size === 1 ? 1 : (size * length) / own)),
+});
+
+/** Takes other dimensions, those of the sliders in lengths and rad: all that depends on them follows. */
+export function resize(model, sizes) {
+  const { at, childAt, ...found } = model.resize(sizes);
+  const length = Math.max(...at.map(norm), ...childAt.map(norm)) || 1;
+  model.joints.forEach((joint, k) => Object.assign(joint, { at: at[k], childAt: childAt[k] }));
+  Object.assign(model, { ...found, sizes, length, ...scales(model.coordinates, length, model.own) });
 }
 
 /** @typedef {ReturnType<typeof modelOf>} Model */
@@ -50,56 +67,26 @@ function stateOf(model, values) {
 }
 
 /**
- * Everything that is asked of joint values; loops need not close. What is not asked for takes no time.
- *
- * It is written row by row into one list, in the order of `assur.page.configuration.matrices`.
+ * Everything that is asked of joint values; loops need not close. The program writes it row by row into one list, in the
+ * order of `assur.page.configuration.matrices`.
+ * @returns {{gaps: object[], derivative: Float64Array[], platform: Frame, moves: Float64Array[], frames: Frame[]}} of each
+ * cut joint how far it is from closing its loop, and six rows of rates of its gap for each joint value, velocities first;
+ * the platform at its point, and six rows of its rates for each joint value, angular velocities first; all links
  */
-class Configuration {
-  constructor(model, values) {
-    const [loops, count, links] = [model.cut.length, model.count, model.links.length];
-    const sizes = { gap: 12 * loops, derivative: 6 * loops * count, platform: 12, move: 6 * count, frame: 12 * links };
-    let size = 0;
-    this.starts = {};
-    for (const [name, own] of Object.entries(sizes)) [this.starts[name], size] = [size, size + own];
-    Object.assign(this, { loops, count, links, numbers: new Float64Array(size) });
-    model.program(stateOf(model, values), model.dimensions, this.numbers);
-  }
-
-  rows(name, length, width) {
-    const start = this.starts[name];
-    return Array.from({ length }, (_, k) => this.numbers.subarray(start + k * width, start + (k + 1) * width));
-  }
-
-  /** Of each cut joint how far it is from closing its loop. */
-  get gaps() {
-    return this.rows("gap", this.loops, 12).map((row) => ({ distance: row.subarray(0, 3), turn: row.subarray(3) }));
-  }
-
-  /** Six rows for each cut joint: rates of its gap for each joint value, velocities first. @returns {Float64Array[]} */
-  get derivative() {
-    return this.rows("derivative", 6 * this.loops, this.count);
-  }
-
-  /** The platform at its point. @returns {Frame} */
-  get platform() {
-    return frameOf(this.rows("platform", 1, 12)[0]);
-  }
-
-  /** Six rows: rates of the platform for each joint value, angular velocities first. @returns {Float64Array[]} */
-  get moves() {
-    return this.rows("move", 6, this.count);
-  }
-
-  /** Frames of all links. @returns {Frame[]} */
-  get frames() {
-    return this.rows("frame", this.links, 12).map(frameOf);
-  }
+export function configurationAt(model, values) {
+  const { count, cut, links } = model;
+  const shapes = [[cut.length, 12], [6 * cut.length, count], [1, 12], [6, count], [links.length, 12]];
+  const numbers = new Float64Array(shapes.reduce((size, [length, width]) => size + length * width, 0));
+  model.program(stateOf(model, values), model.dimensions, numbers);
+  let start = 0;
+  const row = (width) => numbers.subarray(start, (start += width));
+  const rows = shapes.map(([length, width]) => Array.from({ length }, () => row(width)));
+  const [gaps, derivative, platform, moves, frames] = rows;
+  const gapOf = (own) => ({ distance: own.subarray(0, 3), turn: own.subarray(3) });
+  return { gaps: gaps.map(gapOf), derivative, platform: frameOf(platform[0]), moves, frames: frames.map(frameOf) };
 }
 
 const frameOf = (row) => ({ turn: row.subarray(0, 9), origin: row.subarray(9) });
-
-/** @returns {Configuration} */
-export const configurationAt = (model, values) => new Configuration(model, values);
 
 /** What a function says of a model, worked out once. */
 export function once(call) {

@@ -7,7 +7,7 @@
  */
 
 import { largestGap } from "./closure.js";
-import { once } from "./configuration.js";
+import { once, resize } from "./configuration.js";
 import { limitsOf } from "./limits.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
@@ -60,6 +60,16 @@ export function toPose(model, values, target, options) {
   const attempt = (current, t) => nearAssembly(model, current, [], way(t));
   const ask = (current) => closestApproach(model, current, [], target, 100);
   return followed(model, values, { side: "pose", attempt, ask }, options);
+}
+
+/** To other dimensions, those of the sliders in lengths and rad, the inputs held, the assembly mode kept. @returns {Moved} */
+export function toSizes(model, values, target, options) {
+  const [start, held] = [model.sizes, model.inputs.map(({ index }) => index)];
+  const sized = (solve, t) => (resize(model, start.map((value, k) => value + t * (target[k] - value))), solve());
+  const attempt = (current, t) => sized(() => nearAssembly(model, current, held, null), t);
+  const ask = (current) => sized(() => closestApproach(model, current, held, null), 1);
+  const found = followed(model, values, { side: "inputs", attempt, ask }, options);
+  return sized(() => found, found.share);
 }
 
 /** `attempt` is an assembly at a share of the way, `ask` what comes closest to its end. */

@@ -1,17 +1,8 @@
 /** The platform's pose: its coordinates, how far it is from a wanted one, and its rates. */
 
 import { configurationAt } from "./configuration.js";
-import {
-  fromAngles,
-  fromQuaternion,
-  fromVector,
-  multiply,
-  nearestTurn,
-  times,
-  toAngles,
-  toQuaternion,
-  turnBetween,
-} from "./rotation.js";
+import { fromAngles, fromQuaternion, fromVector, toAngles, toQuaternion } from "./rotation.js";
+import { multiply, nearestTurn, times, turnBetween } from "./rotation.js";
 
 const LENGTHS = ["x", "y", "z"];
 const ANGLES = ["phi", "theta", "psi"];

@@ -85,7 +85,7 @@ export const conditionAt = (model, values) =>
  * them by the model's length. In rad a fine thread would look singular everywhere.
  */
 export const nearness = (model, values) => measuresAt(weighed(model), values);
-const weighed = once((model) => ({ ...model, scale: model.units }));
+const weighed = once((model) => Object.create(model, { scale: { get: () => model.units } }));
 
 /** The input that moves most where the platform moves least: at a serial singularity its leg is stretched or folded. */
 export function looseInput({ pose, inputs }) {
