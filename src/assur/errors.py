@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import difflib
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from inspect import signature
+from typing import Any, TypeVar
+
+Answer = TypeVar("Answer")
 
 _HIDDEN = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
 """Categories of Unicode that a reader does not see, but a terminal obeys: controls, directions, separators of lines."""
@@ -95,6 +98,24 @@ class UnknownNameError(UsageError):
         listed = ", ".join(ordered) if ordered else "none"
         super().__init__(f"unknown {kind} '{cut(name)}'; there is: {listed}", hint=hint or guess)
         self.choices = tuple(ordered)
+
+
+def called(function: Callable[..., Answer], *given: Any, **options: Any) -> Answer:
+    """What a function answers; an option that it does not have is refused, with those that it has.
+
+    Errors: UnknownNameError for such an option.
+
+    >>> called(sorted, [2, 1], revers=True)
+    Traceback (most recent call last):
+    ...
+    assur.errors.UnknownNameError: unknown option of sorted 'revers'; there is: key, reverse
+    hint: did you mean reverse?
+    """
+    named = list(signature(function).parameters)[len(given) :]
+    for name in options:
+        if name not in named:
+            raise UnknownNameError(f"option of {function.__name__}", name, named)
+    return function(*given, **options)
 
 
 class BatchError(UsageError, AttributeError):

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from numpy.typing import ArrayLike
 
+from assur.errors import called
 from assur.kinematics.border import Named
 from assur.kinematics.contract.admission import admitted_record, check_closed_form
 from assur.machine.mechanics import Mechanics
@@ -96,7 +97,7 @@ class Mechanism(Mechanics):
         """
         from assur.workspace.region import workspace
 
-        return workspace(self, mode, **options)
+        return called(workspace, self, mode, **options)
 
     def aspects(self, mode: str | None = None, **options: Any) -> Aspects:
         """The aspects of a working mode: parts of its workspace without a parallel singularity, proved.
@@ -108,7 +109,7 @@ class Mechanism(Mechanics):
         """
         from assur.workspace.aspects.aspects import aspects
 
-        return aspects(self, mode, **options)
+        return called(aspects, self, mode, **options)
 
     def indices(self, poses: ArrayLike, mode: str | None = None, characteristic_length: Length = None) -> Indices:
         """Condition, manipulability, transmission (...) at poses (..., m), by name: `assur.performance.indices`.

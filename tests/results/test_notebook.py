@@ -45,6 +45,19 @@ def test_an_attribute_that_there_is_not_is_told_with_those_that_are_near(fivebar
     assert not hasattr(fivebar, "_repr_png_")
 
 
+@pytest.mark.parametrize(
+    ("asked", "wrong", "near"),
+    [
+        (lambda own: own.workspace(resoluton=3), "option of workspace 'resoluton'", "resolution"),
+        (lambda own: own.follow(own.home_values, pose=[0.0, 210.0]), "option of follow 'pose'", "poses"),
+    ],
+)
+def test_an_option_that_there_is_not_is_told_with_those_that_are_near(fivebar, asked, wrong, near):
+    with pytest.raises(UsageError, match=f"unknown {wrong}") as raised:
+        asked(fivebar)
+    assert re.search(rf"did you mean .*\b{near}\b", raised.value.hint)
+
+
 def test_a_notebook_shows_the_table_and_a_picture(fivebar):
     shown = fivebar._repr_html_()
     assert len(cells(shown)) == len(str(fivebar).splitlines()) - 1
@@ -80,6 +93,9 @@ def test_solutions_print_as_the_table_that_a_notebook_shows(fivebar):
 
 POSE = [20.0, 224.0]
 ANSWERS = {
+    "solution": (lambda own: own.inverse(POSE)[0], 9, lambda answer: answer.pose[0]),
+    "mobility": (lambda own: own.mobility(own.home_values), 1, lambda answer: answer.gap),
+    "instant": (lambda own: own.instantaneous(own.home_values), 1, lambda answer: answer.measures["output"]),
     "velocities": (lambda own: own.velocity_map([POSE, POSE]), 2, lambda answer: answer.matrix[0, 0, 0]),
     "indices": (lambda own: own.indices(POSE), 1, lambda answer: answer["condition"]),
     "verdict": (lambda own: own.singularity(POSE), 4, lambda answer: answer.det_jp),

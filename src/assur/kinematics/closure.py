@@ -30,6 +30,7 @@ from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
 from assur.numerics.vectors import add, apply, cross, subtract, times
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
@@ -304,7 +305,7 @@ def gap_left(record: MechanismRecord, assembly: Assembly) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class AssemblyMobility:
+class AssemblyMobility(Tabulated):
     """Freedom of the joint graph at an assembly, by the rank of its closure Jacobian.
 
     `rank` (...) of the 6 v rows, `freedoms` = n - rank, `redundant` = 6 v - rank, and `gap` (...): the
@@ -315,6 +316,15 @@ class AssemblyMobility:
     freedoms: NDArray[np.int_]
     redundant: NDArray[np.int_]
     gap: FloatArray
+
+    def _title(self) -> str:
+        return "freedom of the joint graph"
+
+    def _entries(self) -> Entries:
+        numbers = [np.ravel(part).tolist() for part in (self.freedoms, self.rank, self.redundant, self.gap)]
+        return [
+            dict(zip(("freedoms", "rank", "redundant", "gap"), row, strict=True)) for row in zip(*numbers, strict=True)
+        ]
 
 
 def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = RANK_GAP) -> AssemblyMobility:

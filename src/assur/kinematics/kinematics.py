@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.errors import called
 from assur.joint_graph.frames import Frame, frames
 from assur.kinematics import closure, position
 from assur.kinematics.answers.solution_set import SolutionSet
@@ -176,7 +177,7 @@ class Kinematics(MechanismRecord):
         """
         from assur.kinematics.following.following import follow
 
-        return follow(self, checked_joints(self, joint_values), **options)
+        return called(follow, self, checked_joints(self, joint_values), **options)
 
     @property
     def home_values(self) -> FloatArray:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
+from assur.errors import called
 from assur.kinematics.kinematics import Kinematics
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ class Mechanics(Kinematics):
         """
         from assur.machine.dynamics.inverse_dynamics import dynamics
 
-        return dynamics(self, motion, mode, **options)
+        return called(dynamics, self, motion, mode, **options)
 
     def free_motion(self, release: Release, mode: str | None = None, **options: Any) -> FreeMotion:
         """The motion from a start by given forces of the actuators, without friction; `status` says what ended it.
@@ -99,7 +100,7 @@ class Mechanics(Kinematics):
         """
         from assur.machine.dynamics.free_motion import free_motion
 
-        return free_motion(self, release, mode, **options)
+        return called(free_motion, self, release, mode, **options)
 
     def small_motions(self, pose: ArrayLike, mode: str | None = None, **options: Any) -> SmallMotions:
         """Small motions about a pose (m,) that the actuators hold: M, D, K (k, k) and the poles in 1/s.
@@ -113,7 +114,7 @@ class Mechanics(Kinematics):
         """
         from assur.machine.dynamics.small_motions import small_motions
 
-        return small_motions(self, pose, mode, **options)
+        return called(small_motions, self, pose, mode, **options)
 
     def errors(self, pose: ArrayLike, mode: str | None = None) -> PoseErrors:
         """How errors of dimensions and inputs move the platform at a pose (m,): (6,) for one unit of each.

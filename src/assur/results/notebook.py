@@ -40,7 +40,7 @@ def text_table(title: str, columns: Sequence[str], rows: Rows) -> str:
     cells = [[str(cell) for cell in row] for row in (columns, *rows)]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
-    return "\n".join([title, *(line.rstrip() for line in lines)])
+    return "\n".join([title, *(line.rstrip() for line in lines)] if columns else [title])
 
 
 Entries = Sequence[Mapping[str, object]]

@@ -12,9 +12,8 @@ import assur
 from assur.errors import MechanismFileError
 from assur.kinematics import border
 from assur.kinematics.modes import sign_axes, sign_names
-from assur.model.kernels.faults import FormFault
+from assur.model.kernels.faults import LENGTH, STEPS, FormFault
 from assur.model.kernels.library import ALGEBRA, BUILTINS, DECLARATIONS
-from assur.model.kernels.limits import LENGTH, STEPS
 from assur.model.kernels.reading import names_of
 from assur.model.registry import load_record
 from assur.numerics.intervals.interval import as_interval

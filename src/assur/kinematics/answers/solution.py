@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.excess import Excess
 from assur.kinematics.status import Status
 from assur.results.answers.position import OpenLoop
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ class Failure:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(Tabulated):
     """One solution of the direct or the inverse problem.
 
     Attributes:
@@ -44,6 +45,16 @@ class Solution:
         within_limits: whether it keeps every stroke, joint limit and cone of the file; None where none is stated.
         excesses: the limits that it does not keep, and by how much.
         open_loop: of a solution that is `not_closed`, the loop that stays open most.
+        coordinates, drives: names of the pose and of the inputs.
+
+    >>> import assur
+    >>> print(assur.load("fivebar").inverse([0.0, 200.0], "-+")[0])  # doctest: +ELLIPSIS
+    solution -+: regular, gap ...; lengths and rad
+    what   name    value
+    pose   x       0
+    pose   y       200
+    input  theta1  2.38535
+    ...
     """
 
     pose: FloatArray
@@ -59,3 +70,16 @@ class Solution:
     within_limits: bool | None = None
     excesses: tuple[Excess, ...] = ()
     open_loop: OpenLoop | None = None
+    coordinates: tuple[str, ...] = ()
+    drives: tuple[str, ...] = ()
+
+    def _title(self) -> str:
+        return f"solution {self.mode}: {self.status.name}, gap {self.residual:.1e}; lengths and rad"
+
+    def _entries(self) -> Entries:
+        blocks = {
+            "pose": zip(self.coordinates, self.pose.tolist(), strict=True),
+            "input": zip(self.drives, self.inputs.tolist(), strict=True),
+            "joint": self.joints.items(),
+        }
+        return [{"what": what, "name": name, "value": value} for what, own in blocks.items() for name, value in own]

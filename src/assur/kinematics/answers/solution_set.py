@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 
 if TYPE_CHECKING:
     from assur.kinematics.limbs.solving import LimbSolutions
@@ -29,7 +30,7 @@ FloatArray = NDArray[np.float64]
 BLOCK = 4096
 
 
-class SolutionSet(ABC):
+class SolutionSet(Tabulated):
     """K candidates for each problem of a batch (...), of which those that `exists` are the solutions.
 
     Attributes:
@@ -147,37 +148,12 @@ class SolutionSet(ABC):
             for item in self
         ]
 
-    def to_dataframe(self) -> Any:
-        """The rows as a `pandas.DataFrame`.
-
-        Errors:
-            UsageError: pandas is not installed.
-
-        Its columns:
-
-        >>> import assur
-        >>> list(assur.load("fivebar").direct([1.0, 1.0]).rows()[0])
-        ['x', 'y', 'theta1', 'theta2', 'mode', 'status', 'gap']
-        """
-        from assur.results.notebook import data_frame
-
-        return data_frame(self.rows())
-
-    def __str__(self) -> str:
-        """The solutions as a table; of a batch its size."""
-        from assur.results.notebook import cells, text_table
-
-        return repr(self) if self.batch_shape else text_table(self._title(), *cells(self.rows()))
-
-    def _repr_html_(self) -> str:
-        """The same for a notebook."""
-        from assur.results.notebook import cells, html_table
-
-        if self.batch_shape:
-            return html_table(repr(self), (), ())
-        return html_table(self._title(), *cells(self.rows()))
+    def _entries(self) -> Entries:
+        return [] if self.batch_shape else self.rows()
 
     def _title(self) -> str:
+        if self.batch_shape:
+            return repr(self)
         return f"{len(self)} {self.problem} solutions of {self.record.name}: {self.right}"
 
     def __getitem__(self, place: int) -> Solution:
@@ -271,6 +247,8 @@ class SolutionSet(ABC):
                 within_limits=not exceeded if limits_stated(self.record) else None,
                 excesses=exceeded,
                 open_loop=open_loop(self.record, self.joints[k]) if status == Status.not_closed else None,
+                coordinates=self.record.platform.pose,
+                drives=tuple(item.name for item in self.record.drives),
             )
 
     def __len__(self) -> int:

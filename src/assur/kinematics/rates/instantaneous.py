@@ -32,13 +32,14 @@ from assur.kinematics.rates.motions import (
     pose_units,
 )
 from assur.model.mechanism import MechanismRecord
+from assur.results.notebook import Entries, Tabulated
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Instant:
+class Instant(Tabulated):
     """First-order motion at joint values (..., n).
 
     Attributes:
@@ -67,6 +68,19 @@ class Instant:
     closed: BoolArray
     motion: InstantaneousMotion
     no_rates: BoolArray
+
+    def _title(self) -> str:
+        return "first-order motion: smallest singular values, freedoms, types of singularity"
+
+    def _entries(self) -> Entries:
+        return [
+            {
+                **{name: float(values[place]) for name, values in self.measures.items()},
+                "freedoms": int(self.ranks.freedoms[place]),
+                "singular": ", ".join(name for name, holds in self.types.items() if holds[place]) or "no",
+            }
+            for place in np.ndindex(self.closed.shape)
+        ]
 
     @cached_property
     def types(self) -> Mapping[str, BoolArray]:

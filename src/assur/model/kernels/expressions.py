@@ -7,10 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from assur.model.kernels import values as data
-from assur.model.kernels.faults import FormFault, KernelFault
+from assur.model.kernels.faults import NESTING, FormFault, KernelFault, checked_length, checked_whole
 from assur.model.kernels.functions import UNSET, CallFrame, Run, called
 from assur.model.kernels.library import BUILTINS
-from assur.model.kernels.limits import NESTING, checked_length, checked_whole
 from assur.model.kernels.operations import BINARY, COMPARISONS, UNARY, entry
 from assur.model.kernels.scope import KernelScope, checked_name, target_names
 from assur.model.kernels.values import Value

@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from assur.errors import MechanismFileError, Problem
-from assur.model.kernels.faults import KernelFault, LimitFault
+from assur.model.kernels.faults import KernelFault, LimitFault, Meter
 from assur.model.kernels.library import numeric
-from assur.model.kernels.limits import Meter
 from assur.model.kernels.programs import KernelProgram, Shapeless, program, shape_of
 from assur.model.kernels.values import Function, OfferedFunction, Value, frozen, kind_of, parts_of
 from assur.numerics.number_types import Extended, Floats, Intervals

@@ -10,8 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from assur.model.kernels.declarations import declaring
-from assur.model.kernels.faults import FormFault, KernelFault
-from assur.model.kernels.limits import LENGTH, checked_length
+from assur.model.kernels.faults import LENGTH, FormFault, KernelFault, checked_length
 from assur.model.kernels.operations import plus
 from assur.model.kernels.values import (
     TABLES,

@@ -6,8 +6,7 @@ import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from assur.model.kernels.faults import KernelFault
-from assur.model.kernels.limits import checked_length, checked_whole
+from assur.model.kernels.faults import KernelFault, checked_length, checked_whole
 from assur.model.kernels.values import PLAIN, TABLES, Value, is_number, kind_of, known
 from assur.numerics.powers import LARGEST, whole_power
 

@@ -11,10 +11,9 @@ from types import MappingProxyType
 
 from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM
-from assur.model.kernels.faults import FormFault, KernelFault
+from assur.model.kernels.faults import BYTES, NODES, FormFault, KernelFault, Meter
 from assur.model.kernels.functions import UNSET, CallFrame, problem_of
 from assur.model.kernels.library import imported
-from assur.model.kernels.limits import BYTES, NODES, Meter
 from assur.model.kernels.scope import KernelScope, assigned_names, checked_name, known
 from assur.model.kernels.statements import function, statement
 

@@ -9,9 +9,8 @@ from typing import Any
 
 from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM, expression, target
-from assur.model.kernels.faults import FormFault
+from assur.model.kernels.faults import NESTING, FormFault, Meter
 from assur.model.kernels.functions import UNSET, CallFrame, KernelFunction, Run
-from assur.model.kernels.limits import NESTING, Meter
 from assur.model.kernels.operations import BINARY
 from assur.model.kernels.scope import KernelScope, assigned_names, checked_name, known
 

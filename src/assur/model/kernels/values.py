@@ -13,8 +13,7 @@ from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 from assur.model.closed_form import Branch
-from assur.model.kernels.faults import KernelFault, LimitFault
-from assur.model.kernels.limits import PARTS, checked_length
+from assur.model.kernels.faults import PARTS, KernelFault, LimitFault, checked_length
 
 Value = Any
 
