@@ -72,6 +72,7 @@ UNLIKE = {
         "C[0,0.6,0.8] R[0,0.6,0.8] R[0,0.6,0.8]", "P[y] P(4R)[z] P(4R)[x]", "R[x] R[x] C[x]",
     ],
     "an inner loop across parallelograms": ["{P[x] R[z] R[z] | P[x] R[z] R[z]} R[x] R[x]", "P[y] P(4R)[x] P(4R)[y]"],
+    "slides whose sign names no mode": ["C[x] P[y] R[x]", "C[y] P[x] R[y]", "P[z] R[z] R[z] R[z]"],
     "limbs of another order": ["P[x] R[x] R[x] R[x]", "R[y] R[y] C[y]", "C[z] R[z] R[z]"],
 }  # fmt: skip
 APART = 1e-6
@@ -252,6 +253,22 @@ def test_limbs_that_are_unlike_have_a_closed_form_with_velocities_that_the_joint
     assert "parallel" in derived_closed_form(record)  # which is held against the joint graph
     equations = velocity_equations(analytic_solution(record, "inverse"))
     assert equations.jp.shape == equations.jq.shape == (len(record.inputs),) * 2
+
+
+@pytest.mark.parametrize(("limb", "actuated", "branches"), [
+    pytest.param("R[z] P[x] R[z]", "1.1,1.2", 1, id="a passive slide, which may turn half round"),
+    pytest.param("R[z] R[z] R[z]", "1.1,2.3", 2, id="a driven joint on a platform that stands fast"),
+])  # fmt: skip
+def test_a_limb_beside_one_that_is_straight_has_a_closed_form_that_its_joint_graph_confirms(
+    limb, actuated, branches, tmp_path
+):
+    file = tmp_path / "draft.toml"
+    assert main(["new", str(file), "--chain", "P[x] P[y]", "--chain", limb, "--actuate", actuated]) == 0
+    record = load_record(file)
+    form = names_of(derived_closed_form(record), tmp_path / "closed_form.py")["CLOSED_FORM"]  # held against the graph
+    assert 2 ** len(sign_meanings(record, "inverse")) == branches
+    assert ("negative length" in form.reduced_because) == (branches == 1)
+    assert form.factor_list
 
 
 @pytest.mark.deep

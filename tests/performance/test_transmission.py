@@ -10,6 +10,8 @@ from assur.kinematics.closure import assemble
 from assur.model.pose import LENGTHS
 from assur.performance.transmission import transmission_at
 from assur.singularity.examples import singular_examples
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 from catalogue import each
 
 TRANSLATIONAL = [name for name in assur.names() if set(assur.load(name).platform.pose) <= set(LENGTHS)]
@@ -237,6 +239,15 @@ def test_open_loops_have_no_indices_and_any_batch_has_its_shape():
     for batch in ((), (1,), (3, 1, 2), (0,)):
         assert transmission_at(mechanism, np.broadcast_to(home, (*batch, 5))).outputs.shape == (*batch, 2)
     assert np.isnan(found.inputs[1]).all()
+
+
+def test_slides_in_series_to_the_platform_lose_nothing_whatever_a_passive_leg_does(tmp_path):
+    """What the slides bear passes no passive joint; along x and y they move the platform as an input of its own."""
+    path = tmp_path / "own.toml"
+    path.write_text(drafted(parse_chains(["P[x] P[y]", "R[z] P[x] R[z]"]), path, actuate=["1.1", "1.2"]).text)
+    mechanism = assur.load(path)
+    found = [transmission_at(mechanism, mechanism.inverse(pose).joints[0]) for pose in ([0.0, 0.0], [40.0, 60.0])]
+    np.testing.assert_allclose([[own.inputs, own.outputs] for own in found], 1.0, rtol=0, atol=1e-9)
 
 
 def test_many_configurations_give_what_single_ones_give(monkeypatch, regular_poses):

@@ -291,7 +291,7 @@ class ClosedFormFormulas:
             for k, constant in enumerate(constants):
                 varying[k % len(varying)] *= constant
             own += [(f"{letter}{k}", kind, value) for k, value in enumerate(varying, start=1)]
-        return own
+        return own or [("f1", "parallel", sympy.Integer(1))]  # where inputs are the pose's coordinates
 
     def is_shared(self, value: sympy.Expr) -> bool:
         """Whether both determinants have a factor, but for dimensions."""

@@ -47,7 +47,7 @@ class MatchedSigns:
 
     Attributes:
         roots: problem and root -> the sign of a mode, and whether the root has it or its opposite. A sign without name
-            is that of home: the file's modes do not know legs of negative length.
+            is that of home: the modes do not know legs of negative length.
         factors: sign of a mode that no root has -> a product of factors and of quantities that has it.
         products: problem and root -> what the sign is multiplied with.
     """
@@ -136,7 +136,7 @@ class _Matching:
         shares: dict[sympy.Symbol, dict[int, Share]] = {}
         for root in solution.roots:
             share = self._shares(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
-            if not share and root.quantity in solution.loops.strokes and written_quantities(self.record, problem):
+            if not share and self._same_leg_half_round(problem, solution, root.quantity):
                 matched[problem, root.symbol] = "", 1 if solution.symbols.witness.home[root.symbol] > 0 else -1
                 continue
             if not share:
@@ -155,6 +155,21 @@ class _Matching:
                 whole = tuple(divisors[name] for name in sorted(own))
                 products[problem, symbol] = SignProduct(others, whole)
         return {k: name for k, name in enumerate(meanings) if k not in chosen}
+
+    def _same_leg_half_round(self, problem: Problem, solution: AnalyticSolution, quantity: sympy.Expr) -> bool:
+        """Whether a length of either sign is one answer: the leg is turned half round, which the names do not tell.
+
+        Where the joint graph names the modes, that is so of legs that neither slide nor turn by an input.
+        """
+        circle = solution.loops.strokes.get(quantity)
+        if circle is None or written_quantities(self.record, problem):
+            return circle is not None
+        driven = [own.coordinate for own in self.record.inputs]
+        turned = [self.record.joints[own.joint] for own in driven if own.kind == "angle"]
+        slides = {solution.loops.lengths.get(own.index) for own in driven}
+        return quantity not in slides and not {*circle.links} & {
+            link for joint in turned for link in (joint.parent, joint.child)
+        }
 
     def _table(
         self, problem: Problem, solution: AnalyticSolution, divisors: Mapping[str, sympy.Expr], poses: FloatArray

@@ -236,7 +236,12 @@ class _Velocities:
         """Circles of links that inputs turn."""
         for driven in self.record.inputs:
             if driven.coordinate.kind == "angle":
-                yield self._circle(self.record.joints[driven.coordinate.joint].child)
+                yield self._circle(self._turning(self.record.joints[driven.coordinate.joint]))
+
+    def _turning(self, joint: Joint) -> str:
+        """The link that a driven joint turns: its parent where the child, as a platform, stands fast."""
+        parent, child = (self.solution.placed.links[link] for link in (joint.parent, joint.child))
+        return joint.parent if parent.axis is not None and child.axis is None and child.hinge is None else joint.child
 
     def _circle(self, link: str) -> UnknownDirection:
         for direction in self.solution.loops.directions:
@@ -259,7 +264,7 @@ class _Velocities:
                 yield lengths[index], int(driven.sign) * rate
             else:
                 joint = self.record.joints[driven.coordinate.joint]
-                direction, sense = self._circle(joint.child), self._sense(joint.name) * int(driven.sign)
+                direction, sense = self._circle(self._turning(joint)), self._sense(joint.name) * int(driven.sign)
                 cosine, sine = direction.unknowns
                 whole = sense * rate + self._carried(joint)
                 yield from ((cosine, -sine * whole), (sine, cosine * whole))
@@ -289,7 +294,7 @@ class _Velocities:
         same = all(map(self.witness.is_zero, subtract(carrier.axis, child.axis)))
         for driven, input_rate in zip(self.record.inputs, self.inputs, strict=True):
             turned = self.record.joints[driven.coordinate.joint]
-            if driven.coordinate.kind == "angle" and self._circle(turned.child) == direction:
+            if driven.coordinate.kind == "angle" and self._circle(self._turning(turned)) == direction:
                 own = self._sense(turned.name) * int(driven.sign) * input_rate + self._carried(turned)
                 return own if same else -own
         rate = sympy.Symbol(f"d_angle_{direction.name}", real=True)
@@ -299,16 +304,17 @@ class _Velocities:
         return rate if same else -rate
 
     def _sense(self, name: str) -> int:
-        """Whether a driven joint turns its child about its circle's axis, or against it."""
+        """Whether a driven joint turns its link about the circle's axis, or against it."""
         joint, links = self.record.joints[name], self.solution.placed.links
-        parent, child = links[joint.parent], links[joint.child]
-        if parent.hinge is not None or child.axis is None:
+        turning = self._turning(joint)
+        own, other = links[turning], links[joint.parent if turning == joint.child else joint.child]
+        if other.hinge is not None or own.axis is None:
             raise NotDerivedError(f"{name} is driven, and what carries it turns about two axes")
-        axis: Vector = apply(parent.constant, self.symbols.geometry.joints[name].axes[0])
-        same = all(map(self.witness.is_zero, subtract(axis, child.axis)))
-        if not same and not all(map(self.witness.is_zero, subtract(scaled(axis, -1), child.axis))):
-            raise NotDerivedError(f"{name} is driven about another axis than its child turns")
-        return 1 if same else -1
+        axis: Vector = apply(other.constant, self.symbols.geometry.joints[name].axes[0])
+        same = all(map(self.witness.is_zero, subtract(axis, own.axis)))
+        if not same and not all(map(self.witness.is_zero, subtract(scaled(axis, -1), own.axis))):
+            raise NotDerivedError(f"{name} is driven about another axis than its link turns")
+        return 1 if same == (turning == joint.child) else -1
 
     def _rate(self, form: Form) -> Form:
         expression = sum((part * key for key, part in form.items()), sympy.Integer(0))

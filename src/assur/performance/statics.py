@@ -110,7 +110,8 @@ def transmitted(record: MechanismRecord, values: FloatArray) -> Transmitted:
     moving, moves = _twists(motion, stacked[:, -6:], inputs)
     metric = _metric(signs[passive], centres[:, passive])[:, held[:, None], held]
     found = np.zeros((len(values), len(rows), len(inputs)))
-    found[:, held], pushes = _least(motion, stacked[:, held[len(rows) - 6 :]], metric, inputs)
+    weighed = bool(np.linalg.matrix_rank(signs[passive]) == signs.shape[1])
+    found[:, held], pushes = _least(motion, stacked[:, held[len(rows) - 6 :]], metric, inputs, weighed)
     parts = np.swapaxes(found, -1, -2).reshape(len(values), len(inputs), -1, 6)
     if is_point(record):
         moving[..., :3] = 0.0
@@ -195,8 +196,13 @@ def _twists(motion: _Motion, platform: FloatArray, inputs: list[int]) -> tuple[F
     return np.swapaxes(platform @ motion.free @ rates, -1, -2).copy(), np.max(np.abs(missed), axis=-2) <= SOLVED
 
 
+def _least_change(square: FloatArray, right: FloatArray) -> FloatArray:
+    """A solution of semidefinite equations (N, k, k): drives in series bear on no passive joint, whatever they bear."""
+    return np.asarray(np.linalg.pinv(square, rcond=RANK, hermitian=True) @ right)
+
+
 def _least(
-    motion: _Motion, platform: FloatArray, metric: FloatArray, inputs: list[int]
+    motion: _Motion, platform: FloatArray, metric: FloatArray, inputs: list[int], weighed: bool
 ) -> tuple[FloatArray, BoolArray]:
     """Per input the least x (N, r + p, F) in the metric with (closure, platform)^T x = e, and whether there is one."""
     pushed = np.eye(platform.shape[-1])[:, inputs]
@@ -214,7 +220,8 @@ def _least(
     form = np.swapaxes(spare, -1, -2) @ metric
     unused = ~np.any(spare, axis=-2)
     square = form @ spare + np.eye(spare.shape[-1]) * unused[:, None, :]
-    found = found - spare @ np.linalg.solve(square, form @ found)
+    change = np.linalg.solve if weighed else _least_change
+    found = found - spare @ change(square, form @ found)
     stacked = np.concatenate([motion.closure, platform], axis=-2)
     missed = np.swapaxes(stacked, -1, -2) @ found - pushed
     return found, np.max(np.abs(missed), axis=-2) <= SOLVED

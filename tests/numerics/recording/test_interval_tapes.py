@@ -46,6 +46,14 @@ def test_the_program_over_slopes_does_what_sloped_numbers_do():
             np.testing.assert_array_equal(one.high, two.high)
 
 
+def test_an_output_that_is_a_plain_number_is_enclosed_without_slopes():
+    recorder, x = Recorder(), Interval.of(np.array([2.0]), np.array([2.5]))
+    recorder.varying("x")
+    numbers = [coordinate(x, x.middle, 0, 1)]
+    found = sloped_program(folded(recorder.tape({"one": 1.0})).varying, numbers, 1)(numbers, [])["one"]
+    assert (found.whole.low, found.whole.high, found.centre.low, found.slopes) == (1.0, 1.0, 1.0, (None,))
+
+
 def parts_of(number):
     if isinstance(number, Interval):
         return [number]

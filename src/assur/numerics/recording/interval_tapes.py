@@ -127,7 +127,8 @@ def sloped_program(tape: Tape, varying: Sequence[Sloped | Interval], size: int) 
     constants: list[Any] = [recorder.uniform(name) for name in tape.uniform]
     values = tape.evaluate(numbers, [Sloped(number, number, nothing) for number in constants], SlopedNumbers())
     outputs: dict[str, Any] = {}
-    for name, value in values.items():
+    for name, own in values.items():
+        value = own if isinstance(own, Sloped) else Sloped(own, own, nothing)  # a number, as a factor that is one
         outputs |= {f"{name} middle": value.centre, name: value.whole}
         outputs |= {f"{name} slope {k}": slope for k, slope in enumerate(value.slopes) if slope is not None}
     return SlopedProgram(IntervalProgram(recorder.tape(outputs), clamped=True), tuple(values), size)
