@@ -25,7 +25,7 @@ from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.newton import Newton
 from assur.kinematics.newton_step import NewtonStep
-from assur.kinematics.pose import error_of, error_rates, frame_of, platform_moves, platform_numbers, pose_error
+from assur.kinematics.pose import error_of, error_rates, frame_of, platform_moves, platform_numbers
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
@@ -276,6 +276,7 @@ def assemble(
             unknowns[:, turns] = rotations.shortest(unknowns[:, turns])
         return unknowns
 
+    error: FloatArray = np.full(len(values), np.nan)
     if len(free):
         damping = NEAR_DAMPING if near else FAR_DAMPING if far else least_squares.DAMPING
         for first in range(0, len(left), BLOCK):
@@ -291,12 +292,19 @@ def assemble(
                 same=unwound if far else None,
             )
             values[np.ix_(block, free)] = nearest.x * scale
+            error[block] = _error(record, nearest.residual * length)
             steps = max(steps, nearest.steps)
-    error = closure_error(record, values)
-    if asked is not None:
-        error = np.maximum(error, np.max(np.abs(pose_error(record, values, asked, length)), axis=-1))
+    if np.any(other := np.isnan(error)):
+        error[other] = _error(record, closing_system(record, values[other], None if asked is None else asked[other])[0])
     error = error.reshape(start.shape[:-1])
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
+
+
+def _error(record: MechanismRecord, gaps: FloatArray) -> FloatArray:
+    """The largest (N,) of gaps (N, r) of `closing_system`: of loops, and of a pose coordinate by coordinate."""
+    loops, away = np.split(gaps, [6 * len(joint_graph(record).cut)], axis=1)
+    largest = np.maximum(_largest(loops.reshape(len(gaps), -1, 6)), np.max(np.abs(away), axis=1, initial=0.0))
+    return np.asarray(largest)
 
 
 def gap_left(record: MechanismRecord, assembly: Assembly) -> str:

@@ -34,9 +34,10 @@ one, makes the slope sixty times as steep. So stopped, the residual is within 1e
 
 @dataclass(frozen=True)
 class LeastSquaresResult:
-    """Result per problem: `x` (N, n), `converged` (N,), steps taken."""
+    """Result per problem: `x` (N, n), what its residuals (N, r) are there, `converged` (N,), steps taken."""
 
     x: FloatArray
+    residual: FloatArray
     converged: NDArray[np.bool_]
     steps: int
 
@@ -102,7 +103,7 @@ def minimise(
         raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
         if np.all(damped[active] >= 1e8):
             break
-    return LeastSquaresResult(x, np.max(np.abs(residual), axis=1, initial=0.0) <= tolerance, steps)
+    return LeastSquaresResult(x, residual, np.max(np.abs(residual), axis=1, initial=0.0) <= tolerance, steps)
 
 
 @dataclass(frozen=True, eq=False)
