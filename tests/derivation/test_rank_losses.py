@@ -3,11 +3,18 @@
 import pytest
 
 from assur.derivation.derivation import derive
+from assur.derivation.rank_losses import rank_losses
 from assur.kinematics.contract.check import problems
 from assur.model.kernels.reading import names_of
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
+
+
+def test_where_nothing_is_known_before_groups_are_those_of_the_written_form():
+    record = load_record("zeng2019")
+    told = rank_losses(record, (record.file.parent / "closed_form.py").read_text(encoding="utf-8"))
+    assert {("v",), ("sin_beta",)} <= {*told} & {*record.closed_form.constraint_singular}
 
 
 @pytest.mark.deep

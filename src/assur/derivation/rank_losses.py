@@ -43,7 +43,7 @@ def rank_losses(record: MechanismRecord, text: str, known: Group = ()) -> tuple[
     """
     form: ClosedForm = names_of(text, Path("closed_form.py"))["CLOSED_FORM"]
     own = record.with_closed_form(form, text)
-    lost, kept = {frozenset(known)}, set[frozenset[str]]()
+    lost, kept = {frozenset(known)} if known else set[frozenset[str]](), set[frozenset[str]]()
     for places in _singular_places(own):
         shares = {name: np.abs(value) for name, value in relative_factors(own, places.factors).items()}
         vanishing = {name: share <= SAME for name, share in shares.items()}
