@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from matplotlib.collections import PolyCollection
+from matplotlib.patches import PathPatch
 
 from assur.errors import UsageError
 from assur.figures.aspects import caption, drawn, no_aspects, shown
@@ -27,15 +27,24 @@ def area(rectangles):
     return float(np.sum(np.prod(rectangles[:, 2] - rectangles[:, 0], axis=1)))
 
 
+def enclosed(path):
+    """By the shoelace formula: outlines turn one way, holes the other."""
+    parts = [polygon.T for polygon in path.to_polygons()]
+    return float(sum(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) for x, y in parts) / 2.0)
+
+
 def test_each_aspect_is_drawn_with_the_area_of_its_boxes():
     found, drawing = figure("zeng2019", finest=4.0)
     for item, data in zip(found.aspects, drawing.data["aspects"], strict=True):
         assert data["label"] == item.label
         assert area(data["rectangles"][0]) * 500.0 == pytest.approx(item.volume[0], rel=1e-9)
     axes = drawing.figure.axes[0]
-    drawn_areas = [part for part in axes.collections if isinstance(part, PolyCollection)]
+    drawn_areas = [part for part in axes.patches if isinstance(part, PathPatch)]
     assert len(drawn_areas) == 1 + len(found.aspects)
-    assert len({tuple(part.get_facecolor()[0]) for part in drawn_areas}) == 1 + len(found.aspects)
+    assert len({part.get_facecolor() for part in drawn_areas}) == 1 + len(found.aspects)
+    for part, data in zip(drawn_areas[1:], drawing.data["aspects"], strict=True):
+        assert enclosed(part.get_path()) == pytest.approx(area(data["rectangles"][0]), rel=1e-6)
+        assert len(part.get_path().vertices) < 4 * len(data["rectangles"][0])  # boxes have no lines of their own
     assert [text.get_text().replace(" ", "").replace("−", "-") for text in axes.texts] == [
         item.label for item in found.aspects
     ]

@@ -9,6 +9,8 @@ from matplotlib.colors import to_hex
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.page import HIGHEST
+from assur.figures.style import MILLIMETRE
 from assur.machine.elasticity.stiffness import stiffness_at
 from assur.model.machine_data import MachineData
 from bending import bending
@@ -77,7 +79,9 @@ def test_of_a_drafted_machine_they_are_drawn_on_the_page_in_colours_of_its_links
     record = bending(own_machine(name))
     context = figures.Context(record, page=width)
     for kind in ("stiffness", "vibrations"):
-        assert _room_beside(figures.drawing(record, kind, context).figure) > -0.01
+        figure = figures.drawing(record, kind, context).figure
+        assert _room_beside(figure) > -0.01
+        assert figure.get_figheight() <= HIGHEST * MILLIMETRE + 1e-9
     whole = figures.drawing(record, "stiffness", context)
     machine, bars = whole.figure.axes[:2]
     shown = {line.get_color() for line in machine.lines} | {to_hex(face.get_edgecolor()) for face in machine.patches}

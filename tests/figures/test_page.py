@@ -1,4 +1,6 @@
 import dataclasses
+from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -8,9 +10,10 @@ import assur
 from assur.errors import UsageError
 from assur.figures import catalogue as figures
 from assur.figures.context import Context
+from assur.figures.coordinates import dress
 from assur.figures.encode import encoded
 from assur.figures.page import HIGHEST, WIDTHS, page_width
-from assur.figures.style import MILLIMETRE, SMALL
+from assur.figures.style import MILLIMETRE, SMALL, new_figure
 
 LEAST = 7.0
 """Points of letters in print; their indices are smaller, as in every formula."""
@@ -70,6 +73,29 @@ def test_every_figure_fits_its_page_with_letters_that_can_be_read(context, width
             inside = figure.bbox.padded(0.5)
             assert inside.contains(box.x0, box.y0), (name, text.get_text())
             assert inside.contains(box.x1, box.y1), (name, text.get_text())
+        assert not touching(figure, texts), name
+
+
+def touching(figure, texts):
+    """Numbers at ticks of an axis across that are nearer to each other than half a letter is wide."""
+    boxes = dict(texts)
+    pairs = []
+    for axes in figure.axes:
+        row = sorted((boxes[label] for label in axes.get_xticklabels() if label in boxes), key=lambda box: box.x0)
+        pairs += pairwise(row)
+    return [(left, right) for left, right in pairs if right.x0 - left.x1 < 0.25 * SMALL / 72.0 * figure.dpi]
+
+
+@pytest.mark.parametrize(("low", "high"), [(-1.0, 1.0), (-1e3, 1e3)])
+def test_numbers_at_ticks_of_a_narrow_map_do_not_touch(low, high, monkeypatch):
+    context = Context(assur.load("fivebar"))
+    box = replace(context.workspace.box, low=(low, low), high=(high, high))
+    figure = new_figure(60.0, 60.0)
+    for k in range(3):
+        dress(context, figure.add_axes((0.2, 0.1 + 0.3 * k, 0.28 + 0.1 * k, 0.15)), box, box.names)
+    texts = written(figure, monkeypatch)
+    assert len(texts) > 12
+    assert not touching(figure, texts)
 
 
 def test_the_walk_over_letters_sees_what_is_too_small_or_off_the_page(monkeypatch):

@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
+from manifold3d import CrossSection, FillRule
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
@@ -17,7 +17,7 @@ from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import dress, symbol, value_words
 from assur.figures.page import HIGHEST, legend_above, side_by_side
-from assur.figures.plots import limits_words, no_workspace
+from assur.figures.plots import limits_words, no_workspace, outline
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
@@ -177,9 +177,16 @@ def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float) -> N
         (_rectangles(aspects.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
         *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(aspects.aspects)),
     ]:
-        axes.add_collection(PolyCollection(list(rectangles), linewidth=0.15, **style))
+        area = outline(_united(rectangles))
+        if area is not None:
+            axes.add_patch(PathPatch(area, linewidth=0.15, **style))
     for item in aspects.aspects:
         _letter(axes, item, _rectangles(item.boxes, value), least)
+
+
+def _united(rectangles: FloatArray) -> list[FloatArray]:
+    """Polygons (k, 2) round rectangles (n, 4, 2) that touch: boxes of a proof are in the data alone."""
+    return [np.asarray(polygon) for polygon in CrossSection(list(rectangles), FillRule.NonZero).to_polygons()]
 
 
 def _style(k: int) -> dict[str, Any]:

@@ -11,12 +11,18 @@ from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
+from assur.figures.style import SMALL
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.pose import LENGTHS, is_angle
 from assur.results.typeset_text import minus
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
+POINTS = 72.0
+"""An inch in points."""
+
+WIDE, HIGH = 3.3, 2.0
+"""Room for a number at a tick of an axis across and of one upwards, in heights of its letters."""
 
 
 def held_words(context: Context) -> str:
@@ -82,23 +88,34 @@ def plane_words(first: str, second: str) -> str:
 
 def dress(context: Context, axes: Axes, box: Box, names: Sequence[str]) -> None:
     """Limits, titles and ticks of a plot of two coordinates over a box of poses."""
-    for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
+    for name, axis, most in zip(names, (axes.xaxis, axes.yaxis), _most_ticks(axes), strict=True):
         low, high = box.intervals[box.axis(name)]
         axis.set_view_interval(low, high, ignore=True)
         axis.set_label_text(axis_title(context, name))
         if is_angle(name) and context.record.angle == "deg":
-            axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
+            ticks = angle_ticks(low, high, min(most, 5))
+            axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in ticks]))
             axis.set_major_formatter(FuncFormatter(lambda value, _: minus(f"{np.degrees(value):.0f}")))
+        else:
+            axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
 
 
-def angle_ticks(low: float, high: float) -> list[float]:
-    """Round degrees inside an interval in rad.
+def _most_ticks(axes: Axes) -> tuple[int, int]:
+    """Intervals between ticks, across and upwards, for whose numbers there is room; from 2 to 9."""
+    letter = SMALL / POINTS * axes.figure.dpi
+    room = axes.bbox.width / (WIDE * letter), axes.bbox.height / (HIGH * letter)
+    across, upwards = np.clip(room, 2, 9).astype(int).tolist()
+    return across, upwards
 
-    >>> angle_ticks(-1.0, 1.0)
-    [-50.0, -25.0, 0.0, 25.0, 50.0]
+
+def angle_ticks(low: float, high: float, most: int = 5) -> list[float]:
+    """Round degrees inside an interval in rad, with so many intervals between them at most.
+
+    >>> angle_ticks(-1.0, 1.0), angle_ticks(-1.0, 1.0, 2)
+    ([-50.0, -25.0, 0.0, 25.0, 50.0], [-50.0, 0.0, 50.0])
     """
     first, last = np.degrees([low, high])
-    ticks = MaxNLocator(5, steps=[1, 1.5, 2, 2.5, 3, 4.5, 5, 6, 9, 10]).tick_values(first, last)
+    ticks = MaxNLocator(most, steps=[1, 1.5, 2, 2.5, 3, 4.5, 5, 6, 9, 10]).tick_values(first, last)
     return [float(tick) for tick in ticks if first - 1e-9 <= tick <= last + 1e-9]
 
 

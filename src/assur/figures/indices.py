@@ -89,8 +89,9 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
         known = values[np.isfinite(values)]
         colours = Normalize(0.0, 1.0) if good else scale_of(known, unbounded=index.unbounded)
         marked = {GOOD: ORANGE} if good else None
-        image = coloured(pair[0], plane, values, colours, levels=round_levels(colours), marked=marked)
-        with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), known))
+        levels = round_levels(colours)
+        image = coloured(pair[0], plane, values, colours, levels=levels, marked=marked)
+        with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), known), levels)
         data[name] = {"values": values}
     return Drawing(
         figure,

@@ -156,7 +156,7 @@ def coloured(
 def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Figure, list[tuple[Axes, Axes]]]:
     """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide."""
     wide, tall = plane.spans
-    left, bottom, top = LEFT, 13.0, 7.0
+    left, bottom, top = LEFT, 10.0, 6.5
     columns = side_by_side(plane.context.page, ACROSS, LEAST)
     cell = plane.context.page / columns
     page = cell * min(columns, len(titles))  # as wide as its maps, which are as large as where there are more
@@ -220,20 +220,32 @@ def headed(figure: Figure, plane: MappedPlane) -> None:
 
 
 def with_bar(
-    pair: tuple[Axes, Axes], image: QuadMesh | None, otherwise: str, extend: Literal["max", "neither"] = "neither"
+    pair: tuple[Axes, Axes],
+    image: QuadMesh | None,
+    otherwise: str,
+    extend: Literal["max", "neither"] = "neither",
+    levels: Sequence[float] = (),
 ) -> None:
-    """The bar of colours beside a map; where there are none, words in the map."""
+    """The bar of colours beside a map, with a white line at each of its levels; where there are none, words in the map.
+
+    In a small map few lines have room for their number: ticks stand at levels, as far as there is room beside the bar.
+    """
     axes, bar = pair
     if image is None:
         bar.set_axis_off()
         axes.text(0.5, 0.5, otherwise, transform=axes.transAxes, ha="center", va="center", fontsize=SMALL)
         return
     colours = image.figure.colorbar(image, cax=bar, extend=extend)
-    if isinstance(image.norm, LogNorm):
-        height = image.figure.bbox.height * bar.get_position().height
-        ticks = apart(round_levels(image.norm, 6), image.norm, height / (1.3 * SMALL))
+    scale, rounds = image.norm, [0.0, *levels, *(end for end in (1.0,) if end == image.norm.vmax)]
+    if isinstance(scale, LogNorm):
+        rounds = round_levels(scale, 6)
+    if isinstance(scale, Normalize) and len(rounds) > 1:
+        height = bar.get_window_extent().height / image.figure.dpi * 72.0
+        ticks = apart(rounds, scale, height / (1.3 * SMALL))
         colours.set_ticks(ticks, labels=[_tick_words(tick) for tick in ticks])
         colours.minorticks_off()
+    for level in levels:
+        bar.axhline(level, color="white", linewidth=0.5)
     bar.tick_params(labelsize=SMALL)
 
 

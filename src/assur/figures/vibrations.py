@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.joint_forces import no_masses
-from assur.figures.page import side_by_side
+from assur.figures.page import HIGHEST, side_by_side
 from assur.figures.placing import Letters
 from assur.figures.sketch import cloud_of, draw_ground
 from assur.figures.spec import Drawing, FigureKind
@@ -27,7 +27,7 @@ from assur.scene.hull import hull
 FloatArray = NDArray[np.float64]
 FURTHEST = 0.12
 """Of the mechanism's size: how far the point is drawn from rest that moves most."""
-LEAST, ACROSS = 50.0, 3
+LEAST, ACROSS = 40.0, 3
 """Width that a panel needs in mm, and panels in a row at most."""
 REST = "#bdbdbd"
 BAR, TITLE, EDGE = 13.0, 12.0, 4.0
@@ -67,7 +67,8 @@ def _draw(context: Context) -> Drawing:
     cloud = np.concatenate([rest, *(way.reshape(-1, 3) for ways in moved for way in ways.values())])
     camera = usual_camera(context)
     span = np.ptp(camera.project(cloud), axis=0)
-    tall = float(np.clip((wide - 2 * EDGE) * span[1] / max(span[0], 1e-300), 20.0, 0.9 * wide)) + TITLE + EDGE
+    tallest = min(0.9 * wide, (HIGHEST - BAR) / rows - TITLE - EDGE)
+    tall = float(np.clip((wide - 2 * EDGE) * span[1] / max(span[0], 1e-300), 20.0, tallest)) + TITLE + EDGE
     height = rows * tall + BAR
     page = canvas(context.page, height)
     most = max((share for shape in own for share in shape.shares.bent.values()), default=0.0)

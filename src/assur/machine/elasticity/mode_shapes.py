@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from assur.kinematics.validation.check import METRES
 from assur.machine.elasticity.energies import EnergyShares, energy_shares
+from assur.machine.elasticity.skeletons import SAME
 from assur.machine.elasticity.strains import Strains
+from assur.machine.elasticity.structure import ElasticStructure
 from assur.machine.elasticity.structure_masses import beam_motion
 from assur.machine.elasticity.vibrations import Vibrations
 from assur.machine.masses.bars import joint_points
@@ -28,7 +30,7 @@ class ModeShape:
         frequency: in Hz.
         platform: (6,) displacement of the platform's point in m, then its rotation in rad.
         links: link -> points (k, 3) at rest in the base frame, and their displacements (k, 3), in m: nine sections of
-            each beam, the joints of a rigid link.
+            each beam and of each rigid tie from a beam to a joint that is not on it, the joints of a rigid link.
         shares: of the strain energy.
     """
 
@@ -40,7 +42,7 @@ class ModeShape:
     def deflected(self, furthest: float) -> dict[str, FloatArray]:
         """Link -> curves (c, k, 3) in the base frame, in m, where the point that moves most has gone `furthest`.
 
-        One of each beam, and of a rigid link one through its joints.
+        One of each beam and tie, and of a rigid link one through its joints.
         """
         placed = {link: rest + furthest * moved for link, (rest, moved) in self.links.items()}
         beams = {link: points.reshape(-1, SECTIONS, 3) for link, points in placed.items() if link in self.shares.links}
@@ -84,8 +86,21 @@ def _at_rest(state: Strains) -> dict[str, FloatArray]:
             if beam.link == link
             for share in np.linspace(0.0, 1.0, SECTIONS)
         ] or [metre * point for point in joint_points(record, link).values()]
-        found[link] = origin + np.reshape(places, (-1, 3)) @ turn.T
+        tied = [points for _, points in _ties(state.structure, link)]
+        found[link] = origin + np.reshape([*places, *np.reshape(tied, (-1, 3))], (-1, 3)) @ turn.T
     return found
+
+
+def _ties(structure: ElasticStructure, link: str) -> list[tuple[int, FloatArray]]:
+    """Of each joint that is on no beam of an elastic link its node, and sections (9, 3) from there to it."""
+    if link not in structure.skeletons:
+        return []
+    own, ties = structure.skeletons[link], []
+    for joint, point in joint_points(structure.record, link).items():
+        node, way = own.ties[joint], METRES[structure.record.unit] * point - own.nodes[own.ties[joint]]
+        if np.linalg.norm(way) > SAME * np.max(np.ptp(own.nodes, axis=0)):
+            ties.append((node, own.nodes[node] + np.linspace(0.0, 1.0, SECTIONS)[:, None] * way))
+    return ties
 
 
 def _motions(state: Strains) -> dict[str, FloatArray]:
@@ -97,8 +112,15 @@ def _motions(state: Strains) -> dict[str, FloatArray]:
         found[beam.link].append(state.beam_axes[0, place] @ along @ beam_motion(state, place))
     for link, points in _at_rest(state).items():
         if not found[link]:
-            twist = state.twists(structure.bodies.index((link, 0)))[0]
-            levers = points - state.point[0]
-            turned = np.cross(twist[None, :3], levers[..., None], axis=1)
-            found[link].append(state.length * twist[3:] + turned)
+            found[link].append(_carried(state, (link, 0), points))
+        tied = points[sum(map(len, found[link])) :].reshape(-1, SECTIONS, 3)
+        for (node, _), own in zip(_ties(structure, link), tied, strict=True):
+            found[link].append(_carried(state, (link, node), own))
     return {link: np.concatenate(parts) for link, parts in found.items()}
+
+
+def _carried(state: Strains, body: tuple[str, int], points: FloatArray) -> FloatArray:
+    """Displacements (k, 3, U) of points (k, 3) of a rigid body per unknown."""
+    twist = state.twists(state.structure.bodies.index(body))[0]
+    levers = points - state.point[0]
+    return np.asarray(state.length * twist[3:] + np.cross(twist[None, :3], levers[..., None], axis=1))
