@@ -50,6 +50,7 @@ class Algebra:
         self._parameters = {k: parameters[name].sign if name in parameters else "any" for k, name in names.items()}
         self._doubts: dict[int, frozenset[int]] = {}
         self._signs: dict[int, Least] = {}
+        self._squares: dict[tuple[str, int, frozenset[int]], bool] = {}
         self._merging = sorted({k for item in kernel.margins if item.zero == "merge" for k in self.margin(item)})
         named = {item.name for item in closed_form_of(kernel.record).factor_list}
         factors = {k for name, places in kernel.outputs["factor"].items() if name in named for k in places}
@@ -160,25 +161,36 @@ class Algebra:
         """Whether a margin is a positive multiple of the square of what its sign is the sign of.
 
         Of a product of roots that square has all their radicands as factors: those of the other margins are divided
-        out. All but one of these are the squares of signs of their own, so that no root is parted into two.
+        out. All but one of these are told by other signs, so that no root is parted into two.
         """
-        alike = {j for item in self._merging_by(sign) for j in self.margin(item)} | {k}
-        quantity = self.kernel.outputs["sign"].get(sign, ())
-        if quantity and all(self._is_square_of(own, k) for own in quantity):
+        alike = self._merging_by(sign) | {k}
+        if self._squared(sign, k, frozenset()):
             return True
-        if len(alike) == 1 or sum(not self._has_own_sign(j, sign) for j in alike) > 1:
-            return False
-        return bool(quantity) and all(self._is_square_of(own, k, alike - {k}) for own in quantity)
+        return len(alike) > 1 and len(alike - self._told_beside(sign)) <= 1 and self._squared(sign, k, alike - {k})
 
-    def _merging_by(self, sign: str) -> list[Margin]:
+    def _merging_by(self, sign: str) -> frozenset[int]:
         """Margins at whose zero a sign changes."""
-        return [item for item in self.kernel.margins if item.zero == "merge" and sign in item.signs]
+        own = (item for item in self.kernel.margins if item.zero == "merge" and sign in item.signs)
+        return frozenset(j for item in own for j in self.margin(item))
 
-    def _has_own_sign(self, k: int, beside: str) -> bool:
-        """Whether a margin is a positive multiple of the square of what another of its signs is the sign of."""
-        signs = {name for item in self.kernel.margins if k in self.margin(item) for name in item.signs} - {beside}
-        own = [self.kernel.outputs["sign"].get(name, ()) for name in signs if name in self._asked]
-        return any(places and all(self._is_square_of(j, k) for j in places) for places in own)
+    def _told_beside(self, sign: str) -> set[int]:
+        """Margins that the other signs tell, one after another: each as the only one that a sign has beside those."""
+        told: set[int] = set()
+        others = [name for name in self._asked if name != sign]
+        while alone := {name: left for name in others if len(left := self._merging_by(name) - told) == 1}:
+            others = [name for name in others if name not in alone]
+            for name, left in alone.items():
+                told |= {k for k in left if self._squared(name, k, self._merging_by(name) - left)}
+        return told
+
+    def _squared(self, sign: str, k: int, beside: frozenset[int]) -> bool:
+        """Whether a margin is a positive multiple of the square of what a sign is the sign of, over those beside."""
+        if (sign, k, beside) not in self._squares:
+            quantity = self.kernel.outputs["sign"].get(sign, ())
+            self._squares[sign, k, beside] = bool(quantity) and all(
+                self._is_square_of(own, k, beside) for own in quantity
+            )
+        return self._squares[sign, k, beside]
 
     def _is_square_of(self, own: int, k: int, beside: Collection[int] = ()) -> bool:
         """Whether an entry is a positive multiple of the square of another one, over each of those beside."""
