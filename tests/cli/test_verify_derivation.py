@@ -1,8 +1,11 @@
 """`assur verify` of a derivation: what is proved in a sentence and as data, and what is refused."""
 
 import json
+import re
 
 import pytest
+
+from assur.model.registry import load_record
 
 
 def test_the_command_says_what_is_proved_with_its_exit_code(tmp_path, assur_cli):
@@ -34,3 +37,40 @@ def test_a_problem_without_identities_is_said(tmp_path, assur_cli):
     verified = assur_cli("verify", str(file), "--json")
     assert (verified.code, verified.json["not_proved"]) == (5, ["direct"])
     assert [(own["problem"], own["branches"]) for own in verified.json["problems"]] == [("inverse", 4)]
+
+
+def test_a_relation_of_dimensions_is_a_hypothesis_that_is_held_against_the_file(tmp_path, assur_cli):
+    """Planes of a planar pair of limbs are one where the dimensions say so, by their numbers or by a formula."""
+    file, proof = tmp_path / "own.toml", tmp_path / "d.json"
+    assert assur_cli("new", str(file), "--chain", "R[x] R[x] R[x]", "--chain", "R[x] R[x]").code == 0
+    numbers = {own.name: own.value for own in load_record(file).parameters.values()}
+    _write_values(file, numbers)
+    run = assur_cli("derive", str(file), "--problem", "direct", "--prove", "--json")
+    document = run.json
+    (problem,) = document["problems"]
+    (relation,) = problem["relations"]
+    assert (run.code, relation["stated"]) == (0, False)
+    name, formula = relation["dimension"], relation["formula"]
+    proof.write_text(json.dumps(document))
+    said = " ".join(assur_cli("verify", str(proof), "--mechanism", str(file)).out.split())
+    assert f"with {name} = {formula}, which the file's numbers have and no formula of it states" in said
+    for relations in ({}, {name: f"{formula} + l1"}, {name: f"2*{name} - ({formula})"}):
+        problem["proof"]["relations"] = relations
+        proof.write_text(json.dumps(document))
+        assert assur_cli("verify", str(proof), "--mechanism", str(file)).code == 1
+    _write_values(file, {name: f'"{formula}"'})
+    problem["proof"]["relations"] = {name: formula}
+    proof.write_text(json.dumps(document))
+    verified = assur_cli("verify", str(proof), "--mechanism", str(file), "--json")
+    assert (verified.code, verified.json["problems"][0]["unstated"]) == (0, [])
+    again = assur_cli("derive", str(file), "--problem", "direct", "--json")
+    assert [own["stated"] for own in again.json["problems"][0]["relations"]] == [True]
+
+
+def _write_values(file, values):
+    """Write other values of parameters into a file, numbers or formulas."""
+    text = file.read_text()
+    for name, value in values.items():
+        text, count = re.subn(rf"^({name} *= \{{ value = )[^,]*,", rf"\g<1>{value},", text, flags=re.MULTILINE)
+        assert count == 1
+    file.write_text(text)

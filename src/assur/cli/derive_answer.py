@@ -14,6 +14,7 @@ from assur.cli.paths import output_file
 from assur.derivation.closed_conditions import closed_conditions
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.constraint_couples import COPLANAR, coplanar_couples
+from assur.derivation.dimension_relations import is_stated
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.home_conditions import conditions_at_home
@@ -43,6 +44,7 @@ from assur.results.answers.derivation import (
     DerivedFactor,
     DerivedProblem,
     DerivedReason,
+    DerivedRelation,
     DerivedSet,
     ResistingSet,
 )
@@ -155,8 +157,13 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         square_roots="yes" if solution.eliminant is None else "no" if _no_tower(solution) else "open",
         components=_components(solution), sides=solution.placed.sides,
         left_out=(*left_out(solution.placed, solution.loops.cranks),),
-        vanish_at_home=tuple(map(str, conditions_at_home(solution))),
+        vanish_at_home=tuple(map(str, conditions_at_home(solution))), relations=(*_relations(solution),),
     )  # fmt: skip
+
+
+def _relations(solution: AnalyticSolution) -> Iterator[DerivedRelation]:
+    for own in solution.loops.relations:
+        yield DerivedRelation(str(own.symbol), str(own.formula), is_stated(solution.symbols, own))
 
 
 def _no_tower(solution: AnalyticSolution) -> bool:

@@ -9,7 +9,7 @@ from rich.padding import Padding
 
 from assur.cli.output import Verbatim, heading
 from assur.results.answers.answer import ABSENT
-from assur.results.answers.derivation import DerivationAnswer, DerivedFactor, DerivedProblem
+from assur.results.answers.derivation import DerivationAnswer, DerivedFactor, DerivedProblem, DerivedRelation
 
 LONG = 1200
 """Letters of a factor's formula that are printed; --json has all."""
@@ -35,6 +35,7 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
         if part.sets or part.reasons:
             yield ""
         yield from _end(part) if derived else _resistance(part)
+        yield from (f"for dimensions with {_relation(own)}" for own in part.relations)
         yield from (f"left out: {text}" for text in part.left_out)
         if part.vanish_at_home:
             where = " and ".join(f"{name} = 0" for name in part.vanish_at_home)
@@ -58,6 +59,12 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     if data.closed_form is not None:
         yield f"written: {data.closed_form}"
         yield "next: put it beside the mechanism's file as closed_form.py, and run assur check"
+
+
+def _relation(own: DerivedRelation) -> str:
+    """A dimension as others say that it is, and who says so."""
+    stated = "as the file states" if own.stated else "which its numbers have, and no formula of the file states"
+    return f"{own.dimension} = {own.formula} alone, {stated}"
 
 
 def _formula(factor: DerivedFactor, factors: Iterable[DerivedFactor]) -> str:

@@ -93,7 +93,10 @@ def _derivation(path: Path, content: bytes, name: str | None, start: float) -> O
     except RefusedError as error:
         return _refused(path, str(error), exit_codes.FAILS)
     problems = tuple(
-        VerifiedProblem(own.problem, own.branches, own.conditions, own.assumed, own.ways, own.closed) for own in proved
+        VerifiedProblem(
+            own.problem, own.branches, own.conditions, own.assumed, own.ways, own.closed, own.relations, own.unstated
+        )
+        for own in proved
     )
     answer = VerifiedDerivation(True, whose, problems, without, time.perf_counter() - start)
     shown = [heading(f"verified: {path}"), *map(_proved, problems), *(f"{own}: nothing is proved" for own in without)]
@@ -108,7 +111,10 @@ def _proved(own: VerifiedProblem) -> str:
     complete = f"complete where {where}" if where else "complete"
     assumed = f"; {' and '.join(own.assumed)} taken to stay parallelograms" if own.assumed else ""
     ways = f"; of two ways to stand one is taken of {' and '.join(own.ways)}" if own.ways else ""
-    return f"{own.problem}: derivation verified: {own.branches} branches, {complete}{assumed}{ways}"
+    alone = ", which the file's numbers have and no formula of it states"
+    relations = [f"{text}{alone if text in own.unstated else ''}" for text in own.relations]
+    related = f"; for dimensions with {' and '.join(relations)}" if relations else ""
+    return f"{own.problem}: derivation verified: {own.branches} branches, {complete}{assumed}{ways}{related}"
 
 
 def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, seconds: float) -> Outcome:

@@ -14,6 +14,7 @@ from assur.derivation.definitions import Definition
 from assur.derivation.linear import ONE, VANISHED, Form, never_zero, rank, solved, tidy
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.symbols import GivenSymbols
+from assur.derivation.witness import ModularWitness
 
 
 def dimension_relations(
@@ -76,11 +77,16 @@ def _linear(formula: sympy.Expr, symbol: sympy.Symbol) -> bool:
     )
 
 
-def text(relation: Definition) -> str:
-    """A relation in words.
+def is_stated(symbols: GivenSymbols, relation: Definition) -> bool:
+    """Whether formulas of the file's parameters say a relation; else its numbers alone do.
 
-    >>> a, b = sympy.symbols("a b")
-    >>> text(Definition(a, b + 1))
-    'a = b + 1'
+    >>> from assur.derivation.witness import ModularWitness
+    >>> from assur.model.registry import load_record
+    >>> symbols = GivenSymbols(load_record("fivebar"), "direct", ModularWitness())
+    >>> is_stated(symbols, Definition(symbols.parameters["l1"], symbols.parameters["l2"]))
+    False
     """
-    return f"{relation.symbol} = {relation.formula}"
+    gap, formulas = relation.symbol - relation.formula, symbols.stated
+    for _ in formulas:
+        gap = gap.subs(formulas)
+    return ModularWitness().is_zero(gap)

@@ -189,7 +189,7 @@ class _Set:
         plain = divided(form)
         key = next(iter(form))
         shared, _ = sympy.fraction(tidy(form[key] / plain[key]))
-        factors = [factor for factor, _ in sympy.factor_list(shared)[1] if not never_zero(factor)]
+        factors = [factor for factor, _ in sympy.factor_list(shared)[1] if not self._never_zero(factor)]
         self.conditions += factors
         self.shared += factors
         return plain
@@ -221,6 +221,23 @@ class _Set:
         self.taken.add(name)
         return sympy.Symbol(name, real=True)
 
+    def _square(self, whole: sympy.Expr, short: sympy.Expr) -> sympy.Expr:
+        """The name of a sum of squares that is divided by: written out where it never vanishes, else a condition."""
+        steady = self._never_zero(whole)
+        square = self._named("N", sympy.factor(whole) if steady else short)
+        if not steady:
+            self.conditions.append(square)
+        return square
+
+    def _written_out(self, formula: sympy.Expr) -> sympy.Expr:
+        """A formula without names."""
+        for own in reversed(self.definitions):
+            formula = formula.subs(own.symbol, own.formula)
+        return formula
+
+    def _never_zero(self, formula: sympy.Expr) -> bool:
+        return never_zero(formula, self.witness.sizes)
+
     def _root(self, radicand: sympy.Expr, quantity: sympy.Expr) -> sympy.Symbol:
         """The root of a radicand, with the sign that it has at home."""
         own, root = self._define(self._symbol("M"), radicand), self._symbol("r")
@@ -241,17 +258,14 @@ class _Set:
         if a == 0 or b == 0:
             known, other = (sine, cosine) if a == 0 else (cosine, sine)
             divisor = b if a == 0 else a
-            if not never_zero(divisor):
+            if not self._never_zero(divisor):
                 self.conditions.append(divisor)
             self._define(known, tidy(d / divisor))
             self._define(other, self._root(1 - known**2, other))
             return
         whole = shorter({ONE: a**2 + b**2}, self.witness.circles, self.witness)[ONE]
         a, b, d = self._named("J", a), self._named("K", b), self._named("L", d)
-        steady = never_zero(whole)
-        square = self._named("N", whole if steady else a**2 + b**2)
-        if not steady:
-            self.conditions.append(square)
+        square = self._square(whole, a**2 + b**2)
         root = self._root(square - d**2, a * sine - b * cosine)
         self._define(cosine, (a * d - b * root) / square)
         self._define(sine, (b * d + a * root) / square)
@@ -277,8 +291,7 @@ class _Set:
         (n, m), (h, k) = normals, shares
         x, y, z = (self._named(f"w{axis}", part) for axis, part in zip("xyz", cross(n, m), strict=True))
         w = x, y, z
-        square = self._named("N", dot(w, w))
-        self.conditions.append(square)
+        square = self._square(self._written_out(dot(w, w)), dot(w, w))
         apart = subtract(scaled(m, h), scaled(n, k))
         root = self._root(square - dot(apart, apart), dot(w, own))
         start = add(scaled(cross(m, w), h), scaled(cross(w, n), k))

@@ -95,7 +95,7 @@ def solved(
             return values, left
         _, k, key = min(pivots, key=lambda pivot: pivot[:1])
         pivot = left.pop(k)
-        if conditions is not None and not never_zero(pivot[key]):
+        if conditions is not None and not never_zero(pivot[key], witness.sizes):
             conditions.append(pivot[key])
         own = {other: tidy(-part / pivot[key]) for other, part in pivot.items() if other != key}
         left = [replaced(form, {key: own}, witness) if key in form else form for form in left]
@@ -242,9 +242,22 @@ def _cost(pivot: sympy.Expr, witness: ModularWitness, known: dict[sympy.Expr, tu
 
 
 @lru_cache(maxsize=4096)
-def never_zero(formula: sympy.Expr) -> bool:
-    """Whether a formula of positive dimensions and the like cannot vanish."""
-    return bool(sympy.factor_terms(formula).is_nonzero)
+def never_zero(formula: sympy.Expr, sizes: tuple[sympy.Expr, ...] = ()) -> bool:
+    """Whether a formula of positive dimensions and the like cannot vanish.
+
+    Args:
+        formula: in its names, which are real.
+        sizes: sums of squares that are the square of an axis' length: an axis has a direction, so none is zero.
+
+    >>> a, b = sympy.symbols("a b", real=True)
+    >>> never_zero(a**2 + 1), never_zero(a**2 + b**2), never_zero(2 * a**2 + 2 * b**2, (a**2 + b**2,))
+    (True, False, True)
+    """
+    own = sympy.factor_terms(formula)
+    known = {symbol for size in sizes for symbol in size.free_symbols}
+    if known & own.free_symbols and all(symbol in known or symbol.is_positive for symbol in own.free_symbols):
+        own = sympy.factor(own).subs({size: sympy.Dummy(positive=True) for size in sizes})
+    return bool(own.is_nonzero)
 
 
 def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> int:

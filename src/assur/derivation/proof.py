@@ -62,14 +62,12 @@ class _Proof:
         self.fixed = [length for length in self.loops.lengths.values() if length not in self.loops.strokes]
 
     def whole(self) -> DerivationProof:
-        if self.loops.relations:
-            names = ", ".join(str(own.symbol) for own in self.loops.relations)
-            raise NoIdentityError(f"the formulas hold for dimensions with a relation alone, that of {names}")
         sets = [self._set(k, part) for k, part in enumerate(self.solution.sets)]
         lengths = self._lengths()
         loops = {name: str(value_of(form)) for name, form in zip(self.names, self.loops.forms, strict=True)}
         loops |= {name: str(value_of(form)) for name, (_, form) in self.leanings.items()}
         return DerivationProof(
+            {str(own.symbol): str(own.formula) for own in self.loops.relations},
             {str(own.symbol): str(own.formula) for own in self.solution.placed.named.definitions},
             tuple(self._orientations()),
             tuple(self._reasons()),

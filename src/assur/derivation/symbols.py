@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -12,6 +13,7 @@ import sympy
 from assur.derivation.witness import ModularWitness
 from assur.joint_graph.geometry import Geometry, written_geometry
 from assur.kinematics.modes import Problem
+from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
 from assur.model.written import NumberReading
@@ -53,6 +55,7 @@ class GivenSymbols:
     witness: ModularWitness
 
     def __post_init__(self) -> None:
+        self.witness.sizes = self.sizes
         self.draw(self.witness)
 
     @cached_property
@@ -62,6 +65,17 @@ class GivenSymbols:
         return {
             name: sympy.Symbol(name, real=True, positive=positive[parameter.sign])
             for name, parameter in self.record.parameters.items()
+        }
+
+    @cached_property
+    def stated(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Symbols of dimensions that are formulas of others in the file, and these."""
+        record, reading = self.record, NumberReading(self.parameters, sympy, sympy.Rational)
+        entries = tomllib.loads(record.description.text)["parameters"] if record.description else {}
+        return {
+            self.parameters[name]: reading.value(parse(entry["value"]))
+            for name, entry in entries.items()
+            if isinstance(entry["value"], str) and name not in record.overrides
         }
 
     @cached_property
@@ -120,6 +134,13 @@ class GivenSymbols:
         powers = {part for vector in vectors for own in vector for part in sympy.sympify(own).atoms(sympy.Pow)}
         bases = {part.base for part in powers if part.base.is_Rational and part.base > 0 and not part.exp.is_Integer}
         return sorted(Fraction(int(base.p), int(base.q)) for base in bases)
+
+    @cached_property
+    def sizes(self) -> tuple[sympy.Expr, ...]:
+        """Squares of the lengths of axes that are formulas of dimensions."""
+        axes = [part for own in self.geometry.joints.values() for axis in own.axes for part in axis]
+        powers = {part for own in axes for part in sympy.sympify(own).atoms(sympy.Pow) if part.exp.q == 2}
+        return tuple(sorted({part.base for part in powers if part.base.free_symbols}, key=str))
 
     def draw(self, witness: ModularWitness) -> None:
         """Values of what is given and is not free: cosine and sine of an angle, a unit quaternion."""

@@ -52,6 +52,8 @@ class ModularWitness:
         self._values: dict[Any, Element] = {}
         self.home: dict[sympy.Symbol, float] = {}
         """What symbols are at home, where that is known."""
+        self.sizes: tuple[sympy.Expr, ...] = ()
+        """Sums of squares of dimensions that are the square of an axis' length."""
 
     def with_roots(self, radicands: Sequence[Fraction]) -> None:
         """Another prime, if need be, modulo which these numbers have roots; before anything has a value."""

@@ -155,10 +155,12 @@ class ProvedSet:
 class DerivationProof:
     """What `assur verify` checks of a derivation.
 
-    `named` are formulas of what is given, in order; `vectors` are components of lengths along directions that turn;
+    `relations` are hypotheses: dimensions as what others say that they are, without which no loop closes. `named` are
+    formulas of what is given, in order; `vectors` are components of lengths along directions that turn;
     `units` are squares that are 1; `loops` vanish, of which `axes` are those of axes that links share.
     """
 
+    relations: Mapping[str, str]
     named: Mapping[str, str]
     orientations: tuple[ProvedOrientation, ...]
     reasons: tuple[ProvedReason, ...]
@@ -224,6 +226,18 @@ class DerivedComponents:
 
 
 @dataclass(frozen=True)
+class DerivedRelation:
+    """A dimension as what others say that it is, without which no loop closes.
+
+    `stated`: whether formulas of the file's parameters say so; else its numbers alone do, and others may not.
+    """
+
+    dimension: str
+    formula: str
+    stated: bool
+
+
+@dataclass(frozen=True)
 class DerivedProblem:
     """The direct or the inverse problem.
 
@@ -234,7 +248,7 @@ class DerivedProblem:
     the file's home; `lengths` are found after the sets. `proof` is there where it is asked for, or `not_proved` says
     why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set that is not
     solved; `count` the number of solutions, found without any of the elimination; `closed` what holds where conditions
-    do not, derived modulo a prime.
+    do not, derived modulo a prime. `relations`: dimensions for which alone it holds.
     """
 
     problem: str
@@ -258,6 +272,7 @@ class DerivedProblem:
     vanish_at_home: tuple[str, ...] = ()
     components: DerivedComponents | Absent = ABSENT
     sides: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    relations: tuple[DerivedRelation, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -284,7 +299,8 @@ class VerifiedProblem:
     """What is proved of one problem: its branches, of which `closed` were held against the joint graph, and where.
 
     They are all where `conditions` hold and the parallelograms `assumed` stay such. Links of `ways`, "<link> against
-    <carrier>", may stand in two ways, of which one is taken.
+    <carrier>", may stand in two ways, of which one is taken. They hold for dimensions with `relations` alone, of which
+    `unstated` are those that no formula of the file states.
     """
 
     problem: str
@@ -293,6 +309,8 @@ class VerifiedProblem:
     assumed: tuple[str, ...]
     ways: tuple[str, ...]
     closed: int
+    relations: tuple[str, ...] = ()
+    unstated: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

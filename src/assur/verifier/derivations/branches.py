@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any
 
 from assur.verifier.derivations.assembly import QUATERNION, FileAssembly, given_names, has_quaternion
+from assur.verifier.derivations.relations import Relations
 from assur.verifier.derivations.roots import RootNumber, circle_at_roots, interpolated
 from assur.verifier.derivations.turning import same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
@@ -65,6 +66,7 @@ class _DrawnBranches:
             name: AngleSum({name: Fraction(1)}) if unit else field.uniform()
             for name, (_, unit) in mechanism.parameters.items()
         }
+        self.names = Relations(mechanism, problem["proof"]["relations"]).among(self.names, field)
         lengths, angles = given_names(mechanism, problem["problem"])
         given: dict[str, Any] = {name: field.uniform() for name in lengths}
         for name in angles:

@@ -19,6 +19,7 @@ from assur.verifier.derivations.assembly import LENGTHS, QUATERNION, FileAssembl
 from assur.verifier.derivations.branches import closing_branches
 from assur.verifier.derivations.known_formulas import KnownFormulas, Multiples
 from assur.verifier.derivations.orientations import OrientationCheck
+from assur.verifier.derivations.relations import Relations
 from assur.verifier.derivations.terms import Term, WrittenNumbers, divisors, symbol, term
 from assur.verifier.derivations.turning import ClaimedTurn
 from assur.verifier.formula import AngleSum
@@ -40,6 +41,7 @@ class ProvedProblem:
         assumed: parallelograms of the file that are taken to stay such.
         ways: "<link> against <carrier>" of links of whose two ways to stand one is taken.
         closed: branches that were held against the joint graph.
+        relations: of dimensions for which alone it is proved; `unstated` those that no formula of the file says.
     """
 
     problem: str
@@ -48,6 +50,8 @@ class ProvedProblem:
     assumed: tuple[str, ...]
     ways: tuple[str, ...]
     closed: int
+    relations: tuple[str, ...] = ()
+    unstated: tuple[str, ...] = ()
 
 
 def is_derivation(data: bytes) -> bool:
@@ -114,6 +118,9 @@ class _ProblemCheck(KnownFormulas):
         parameters: dict[str, Any] = {
             name: AngleSum({name: 1}) if unit else symbol(name) for name, (_, unit) in own.parameters.items()
         }
+        self.relations = Relations(own, self.proof["relations"])
+        self.relations.held_by_numbers()
+        free, parameters = parameters, self.relations.among(parameters, numbers)
         lengths, angles = given_names(own, self.name)
         given: dict[str, Any] = {name: symbol(name) for name in lengths}
         for name in angles:
@@ -125,6 +132,7 @@ class _ProblemCheck(KnownFormulas):
             numbers.squares[QUATERNION[-1]] = 1 - w * w - x * x - y * y
             given |= zip(QUATERNION, (w, x, y, z), strict=True)
         super().__init__(numbers, {**parameters, **given}, own.positive)
+        self.unstated = self.relations.unstated(free, numbers, self.zero)
         self.conditions: list[str] = []
         self.circles: set[str] = set()
         claims = self.proof["orientations"]
@@ -154,7 +162,10 @@ class _ProblemCheck(KnownFormulas):
             raise RefusedError(f"{self.problem['branches']} branches are claimed, {count} follow of the roots")
         checked = closing_branches(self.mechanism, self.problem, self.conditions)
         assumed = tuple(own.name for own in self.mechanism.parallelograms)
-        return ProvedProblem(self.name, count, tuple(self.conditions), assumed, tuple(orientations.ways), checked)
+        return ProvedProblem(
+            self.name, count, tuple(self.conditions), assumed, tuple(orientations.ways), checked,
+            self.relations.texts, self.unstated,
+        )  # fmt: skip
 
     def _named(self) -> None:
         """Formulas of what is given, by names."""
