@@ -171,10 +171,13 @@ def test_examples_of_the_help_run(assur_cli, tmp_path, monkeypatch):
 # ---- the graph ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("ending", "magic"), [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".PDF", b"%PDF")])
-def test_the_graph_is_written(assur_cli, tmp_path, ending, magic):
-    path = tmp_path / f"graph{ending}"
-    run = assur_cli("topology", "zeng2019", "--graph", str(path))
+@pytest.mark.parametrize(
+    ("ending", "magic", "what"),
+    [(".svg", b"<?xml", "graph"), (".png", b"\x89PNG", "sketch"), (".PDF", b"%PDF", "graph")],
+)
+def test_a_drawing_is_written(assur_cli, tmp_path, ending, magic, what):
+    path = tmp_path / f"drawn{ending}"
+    run = assur_cli("topology", "zeng2019", f"--{what}", str(path))
     assert (run.code, run.err) == (0, "")
     assert run.out.endswith(f"written: {path}\n") or str(path) in run.out.replace("\n", "")
     assert path.read_bytes().startswith(magic)
@@ -198,6 +201,7 @@ BAD = {
     ],
     "--actuate names the joint 1.1 twice; each once": [*chains(*TRIPTERON), "--actuate", "1.1,1.1"],
     "cannot write graph.gif: its ending is none of .svg, .pdf, .png": ["zeng2019", "--graph", "graph.gif"],
+    "cannot write limbs.gif: its ending is none of .svg, .pdf, .png": ["zeng2019", "--sketch", "limbs.gif"],
     "--chain needs a value": ["--chain"],
 }
 

@@ -47,6 +47,13 @@ def topology(
     graph: Annotated[
         str | None, Parameter(metavar="FILE", help="Also draw links and joints into this .svg, .pdf or .png file.")
     ] = None,
+    sketch: Annotated[
+        str | None,
+        Parameter(
+            metavar="FILE",
+            help="Also draw limbs in space into such a file, joints by their symbols, axes in their directions.",
+        ),
+    ] = None,
     latex: Annotated[bool, Parameter(help="Print a LaTeX fragment for a paper instead.")] = False,
     ascii_: Annotated[bool, Parameter(name="--ascii", help="Print plain letters and signs only.")] = False,
     shared: Plain = PLAIN,  # noqa: ARG001  # read by main
@@ -62,7 +69,7 @@ def topology(
 
     For example:
         assur topology zeng2019
-        assur topology zeng2019 --graph zeng2019.svg
+        assur topology zeng2019 --graph zeng2019.svg --sketch limbs.svg
         assur topology three_upu --modes
         assur topology three_upu --mode 3R
         assur topology fivebar --improve
@@ -78,12 +85,12 @@ def topology(
     from assur.derived_topology import topology as derive
     from assur.improved_topology import improvements
 
-    path = output_file(graph, ENDINGS) if graph is not None else None
+    graph_path, sketch_path = (None if path is None else output_file(path, ENDINGS) for path in (graph, sketch))
     asked = _asked(what, chain)
     derived = derive(asked, actuate=_actuators(actuate), mode=mode)
     met = operation_modes(asked) if modes else None
     better = improvements(asked, actuate=_actuators(actuate), mode=mode) if improve else None
-    also = topology_answer.BesideFacts(path, met, better)
+    also = topology_answer.BesideFacts(graph_path, sketch_path, met, better)
     return topology_answer.outcome(derived, also, latex=latex, ascii_only=ascii_)
 
 

@@ -47,15 +47,16 @@ def shortened(text: str) -> str:
 
 @dataclass(frozen=True)
 class BesideFacts:
-    """What was asked for beside the facts: a drawing of the graph, operation modes, neighbours; None where not."""
+    """What was asked for beside the facts: drawings of graph and limbs, operation modes, neighbours; None where not."""
 
     graph: Path | None = None
+    sketch: Path | None = None
     modes: tuple[MetMode, ...] | None = None
     improvements: tuple[Improvement, ...] | None = None
 
 
 def outcome(topology: Topology, also: BesideFacts, *, latex: bool, ascii_only: bool) -> Outcome:
-    """The answer, with what else was asked for; the graph is written where a path is given."""
+    """The answer, with what else was asked for; drawings are written where a path is given."""
     data = answers(topology)
     if also.modes is not None:
         data = replace(data, modes=also.modes, notes=(*data.notes, NOT_ALL))
@@ -63,8 +64,11 @@ def outcome(topology: Topology, also: BesideFacts, *, latex: bool, ascii_only: b
         data = replace(data, improvements=also.improvements)
     wrong = 1 if any(note.startswith("declared ") for note in topology.notes) else 0  # a claim of the file fails
     if also.graph is not None:
-        _draw(topology, also.graph)
+        _draw(topology, "graph", also.graph)
         data = replace(data, graph=str(also.graph))
+    if also.sketch is not None:
+        _draw(topology, "sketch", also.sketch)
+        data = replace(data, sketch=str(also.sketch))
     if latex:
         from assur.topology.latex import fragment
 
@@ -73,14 +77,18 @@ def outcome(topology: Topology, also: BesideFacts, *, latex: bool, ascii_only: b
     return Outcome(data, lambda: _shown(topology, also, ascii_only=ascii_only), wrong)
 
 
-def _draw(topology: Topology, path: Path) -> None:
+def _draw(topology: Topology, name: str, path: Path) -> None:
     from assur.figures.encode import encoded
     from assur.figures.graph import graph_drawing
+    from assur.figures.spatial_sketch import sketch_drawing
     from assur.figures.style import styled
     from assur.results.files import write_whole
 
     with styled():
-        drawing = graph_drawing(topology.linkage, topology.loops, topology.assur_chains)
+        if name == "graph":
+            drawing = graph_drawing(topology.linkage, topology.loops, topology.assur_chains)
+        else:
+            drawing = sketch_drawing(topology.linkage)
     write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
 
 
@@ -99,8 +107,7 @@ def _shown(topology: Topology, also: BesideFacts, *, ascii_only: bool) -> Iterab
             yield ""
             yield heading(title)
             yield from map(ascii_rule, lines) if ascii_only else lines
-    if also.graph is not None:
-        yield f"written: {also.graph}"
+    yield from (f"written: {path}" for path in (also.graph, also.sketch) if path is not None)
 
 
 def _improvements(topology: Topology, better: tuple[Improvement, ...], say: Said) -> Iterator[RenderableType]:

@@ -61,7 +61,7 @@ def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, 
     place = {link: order(np.concatenate(_points_of(skeleton, link))) for link in bodies}
     for plate in skeleton.plates:
         corners = hull(view(plate.points))
-        page.polygon(corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, place[plate.link])
+        page.polygon(corners, tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, place[plate.link])
         letters.avoid(np.concatenate([corners, corners[:1]]))
     for rod in skeleton.rods:
         ends = view(rod.points)
@@ -111,7 +111,7 @@ def _step(ends: FloatArray, share: float) -> FloatArray:
     return np.asarray(way * min(share, 7.0 / float(np.linalg.norm(way))))
 
 
-def _tint(colour: str) -> str:
+def tint(colour: str) -> str:
     """A colour, much lighter."""
     parts = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
     return "#" + "".join(f"{round(255 - 0.22 * (255 - part)):02x}" for part in parts)

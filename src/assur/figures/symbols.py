@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
 from assur.figures.style import INK, ORANGE, PAPER
+from assur.joints.joint_type import JointType
 from assur.scene.hull import hull
-from assur.scene.skeleton import JointMark
 
 FloatArray = NDArray[np.float64]
 RADIUS = 3.6
@@ -20,7 +22,43 @@ HATCH = 3.6
 ROUND = np.array([[-1.0, -1.0], [1.0, 1.0]])
 
 
-def joint_symbol(page: Canvas, view: View, mark: JointMark, order: float, size: float = 1.0) -> FloatArray:
+class Typed(Protocol):
+    """What has a type of joint."""
+
+    @property
+    def type(self) -> JointType:
+        """The type."""
+
+
+class DrawnJoint(Protocol):
+    """What a symbol says of a joint: its type, place (3,) and unit axes (k, 3), whether it is driven."""
+
+    @property
+    def joint(self) -> Typed:
+        """The joint."""
+
+    @property
+    def shown(self) -> FloatArray:
+        """Where its symbol stands."""
+
+    @property
+    def axes(self) -> FloatArray:
+        """What its steps go along."""
+
+    @property
+    def driven(self) -> bool:
+        """Whether it is actuated."""
+
+    @property
+    def slides(self) -> bool:
+        """Whether its links slide along one another on a line."""
+
+    @property
+    def flat(self) -> bool:
+        """Whether they slide on a plane, whose normal is its first axis."""
+
+
+def joint_symbol(page: Canvas, view: View, mark: DrawnJoint, order: float, size: float = 1.0) -> FloatArray:
     """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
     at = view(mark.shown)
     fill = ORANGE if mark.driven else PAPER
@@ -41,7 +79,7 @@ def joint_symbol(page: Canvas, view: View, mark: JointMark, order: float, size: 
     return np.concatenate(drawn)
 
 
-def _plane(page: Canvas, view: View, mark: JointMark, fill: str, order: float, size: float) -> FloatArray:
+def _plane(page: Canvas, view: View, mark: DrawnJoint, fill: str, order: float, size: float) -> FloatArray:
     """A plate in its plane as it is seen, and a disc on it where it turns."""
     at = view(mark.shown)
     first, second = (view.camera.project(axis) for axis in mark.axes[1:])

@@ -226,8 +226,9 @@ class TopologyAnswer(Answer):
     `motion_type` counts independent elements, translations and rotations, `parasitic` those of the others that no point
     of the platform is without; `freedom_type` is full, partial or separable. `alike` are limbs with the same joints,
     drives and relations, `conditions` the geometric ones that F and the POC set need.
-    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
-    was written, `latex` a fragment for a paper; `modes` and `improvements` are there where they are asked for.
+    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` and `sketch` are
+    the drawings that were written, `latex` a fragment for a paper; `modes` and `improvements` are there where they
+    are asked for.
     """
 
     name: str
@@ -268,4 +269,5 @@ class TopologyAnswer(Answer):
     modes: tuple[MetMode, ...] | Absent = ABSENT
     improvements: tuple[Improvement, ...] | Absent = ABSENT
     graph: str | Absent = ABSENT
+    sketch: str | Absent = ABSENT
     latex: str | Absent = ABSENT
