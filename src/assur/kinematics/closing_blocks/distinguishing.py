@@ -43,8 +43,9 @@ SignArray = NDArray[np.int8]
 PROBLEMS, STARTS, AT_ONCE = 3, 160, 48
 """Problems whose solutions are to be told apart, home's first, and starts by chance for each, at most and at once."""
 
-MET = 4
-"""How often each solution is met, on the average, before no more starts are made: so what looks alike is met, too."""
+LEAST, MET = 32, 3
+"""Assemblies of each problem, and how often each solution is met on the average, before no more starts are made: so
+what looks alike is met, too. With 40 and 4 all names of 50 mechanisms are the same."""
 
 ROUNDS = 2
 """How often more starts are made where few of them lead to an assembly."""
@@ -231,11 +232,11 @@ def _solving(
     limbs = _limbs_apart(record) if problem == "inverse" and not open_freedoms(record) else []
     for _ in range(AT_ONCE, STARTS, AT_ONCE):
         solutions = 1 if len(limbs) > 1 else 1 + int(np.max(numbered(record, values), initial=0))
-        if len(values) >= max(STARTS // 4, MET * solutions):
+        if len(values) >= max(LEAST, MET * solutions):
             break
         values = np.concatenate([values, (yield by_chance(record, AT_ONCE, rng))])
     for _ in range(ROUNDS):
-        if not 0 < len(values) < STARTS // 4:
+        if not 0 < len(values) < LEAST:
             break
         begun = np.concatenate([redrawn(record, values, STARTS // 2, rng), mixed(record, values, STARTS // 2, rng)])
         values = np.concatenate([values, (yield begun)])
