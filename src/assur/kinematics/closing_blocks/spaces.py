@@ -16,6 +16,9 @@ FloatArray = NDArray[np.float64]
 SAME_SPACE = 1e-4
 """Share of the largest singular value by which bases of one space fill no further direction."""
 
+WHOLE = 6
+"""Dimension of the space of all screws."""
+
 MOST_LOOPS = 3
 """Loops of a block up to which others than its own are looked at."""
 
@@ -59,7 +62,10 @@ def _widths(block: ClosingBlock, number: int, screws: ScrewColumns) -> Mapping[s
     if question not in screws.widths:
         joints = [record.joints[name] for name in loop if name in record.joints]
         links = dict.fromkeys([record.base, *(link for joint in joints for link in (joint.parent, joint.child))])
-        screws.widths[question] = {link: span(screws.seen_from(link)[:, :, [*own]]).shape[1] for link in links}
+        few = _widths(block, number, screws.few) if screws.few is not screws else dict.fromkeys(links, 0)
+        screws.widths[question] = {  # what fills all directions in a few assemblies does in all
+            link: WHOLE if few[link] == WHOLE else span(screws.seen_from(link)[:, :, [*own]]).shape[1] for link in links
+        }
     return screws.widths[question]
 
 

@@ -53,13 +53,17 @@ def _seen_from(link: str, sign: BlockSign, screws: ScrewColumns) -> Iterator[Blo
         return
     rows = sign.block.derivative(screws, links) @ sign.rates
     kept = [k for k in range(rows.shape[1]) if np.max(np.abs(rows[:, k])) > SMALL]
-    kept = [k for n, k in enumerate(kept) if not any(np.allclose(rows[:, k], rows[:, i]) for i in kept[:n])]
-    values = np.linalg.det(sign.matrices(screws))
-    for chosen in combinations(kept, count):
-        own = np.linalg.det(rows[:, chosen])
-        ratio = (own @ values) / (values @ values)
-        if abs(ratio) > SMALL and np.allclose(own, ratio * values, rtol=SMALL, atol=SMALL * np.max(np.abs(own))):
-            yield replace(sign, links=links, basis=np.eye(rows.shape[1])[:, chosen])
+    alike = np.all(np.isclose(rows[:, kept, None], rows[:, None, kept]), axis=(0, 3))
+    sets = [*combinations([k for n, k in enumerate(kept) if not np.any(alike[n, :n])], count)]
+    if not sets:
+        return
+    values = sign.shares(screws) * sign.size
+    own = np.linalg.det(rows[:, sets])
+    ratios = values @ own / (values @ values)
+    scale = np.max(np.abs(own), axis=0)
+    same = np.all(np.abs(own - np.outer(values, ratios)) <= SMALL * (scale + np.abs(np.outer(values, ratios))), axis=0)
+    for k in np.flatnonzero(same & (np.abs(ratios) > SMALL)):
+        yield replace(sign, links=links, basis=np.eye(rows.shape[1])[:, sets[k]])
 
 
 def _seen(sign: BlockSign, screws: ScrewColumns) -> list[BlockSign]:
