@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from assur.synthesis.home_constraints import constraints_of, home_twists, together
+from assur.synthesis.home_constraints import BESIDE, constraints_of, home_twists, together
 from assur.synthesis.required import PARASITIC
 from assur.topology.notation import parse_chain
 
@@ -48,12 +48,12 @@ def test_three_forces_across_z_leave_a_translation_and_two_rotations():
     assert not together(wrenches[:2]).leave(RISING)
 
 
-def test_an_axis_through_the_origin_lies_on_a_line_that_limbs_share():
+def test_an_axis_on_a_line_that_limbs_share_runs_through_a_point_of_it():
     limb = parse_chain("U[x,y] P[z] R[y]")
-    for end, column in (("base", 0), ("platform", 3)):
+    for end, column, point in (("base", 0, np.zeros(3)), ("platform", 3, BESIDE)):
         for seed in (1, 2):
             twists = home_twists(limb, AS_WRITTEN, seed, end)
-            assert np.allclose(twists[3:, column], 0.0)
+            assert np.allclose(twists[3:, column], np.cross(point, twists[:3, column]))
     assert np.linalg.norm(home_twists(limb, AS_WRITTEN, 1)[3:, 0]) > 0.1
 
 

@@ -92,8 +92,9 @@ def explanation_answer(
     explained: Explanation, asked: SynthesisQuestion, limbs: Sequence[DrivenLimb]
 ) -> ExplanationAnswer:
     """What became of a mechanism in a synthesis."""
-    rank = explained.synthesis.designs.index(explained.design) + 1 if explained.synthesis and explained.design else None
-    families = explained.synthesis.families if explained.synthesis else ()
+    whole = explained.synthesis if explained.synthesis and explained.synthesis.whole else None
+    rank = whole.designs.index(explained.design) + 1 if whole and explained.design else None
+    families = whole.families if whole else ()
     return ExplanationAnswer(
         asked=_asked(asked),
         chains=tuple(plain_text(limb.chain) for limb in limbs),

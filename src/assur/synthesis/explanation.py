@@ -103,13 +103,18 @@ def _listed(
     limbs: Sequence[DrivenLimb], key: Key, asked: SynthesisQuestion, row: VirtualChain | None, step: Step
 ) -> Explanation:
     """Where the search lists it."""
-    found = synthesis(asked, step=step, also=(key,))
+    found = synthesis(asked, step=step, sought=key)
     is_it = _recognised(limbs, key, asked, row)
     for number, family in enumerate(found.families, 1):
         for design in family.designs:
             if is_it(design):
                 rank = found.designs.index(design) + 1
-                said = f"rank {rank}, in family {number} of {len(found.families)}, which has {family.members} members"
+                said = (
+                    f"rank {rank}, in family {number} of {len(found.families)}, which has {family.members} members"
+                    if found.whole
+                    else f"in a family of {plural(family.members, 'member')}, with κ = {design.coupling_degree}; "
+                    "its rank is told by the synthesis itself, which takes longer"
+                )
                 return Explanation("", said, found, design)
     if asked.novelty:
         known = "the catalogue has a mechanism with these limbs, and only others are asked for"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,9 @@ ZERO = 1e-7
 DIGITS = 6
 """Decimals to which directions are compared."""
 
+BESIDE = np.array([0.31, -0.47, 0.83])
+"""A point on the platform's line that is not on the base's: two lines that limbs share need not meet."""
+
 
 @dataclass(frozen=True, eq=False)
 class HomeConstraints:
@@ -29,13 +33,20 @@ class HomeConstraints:
 
     Attributes:
         wrenches: (n, 6) rows (moment, force), independent.
-        forces: (3, f) orthonormal directions of what they can push along.
-        couples: (3, c) orthonormal directions of their pure couples.
     """
 
     wrenches: FloatArray
-    forces: FloatArray
-    couples: FloatArray
+
+    @cached_property
+    def forces(self) -> FloatArray:
+        """(3, f) orthonormal directions of what they can push along."""
+        return _basis(self.wrenches[:, 3:]).T
+
+    @cached_property
+    def couples(self) -> FloatArray:
+        """(3, c) orthonormal directions of their pure couples."""
+        pure = null_basis(self.wrenches[None, :, 3:].swapaxes(-1, -2))[0]  # combinations without a force
+        return _basis(pure.T @ self.wrenches[:, :3]).T
 
     @property
     def key(self) -> tuple[object, ...]:
@@ -51,8 +62,15 @@ class HomeConstraints:
 
     def leave(self, motion: RequiredMotion) -> bool:
         """Whether they leave as many translations as the motion has, and as many freedoms."""
-        free = (3 - self.forces.shape[1], 6 - len(self.wrenches))
-        return free == (len(motion.translations), motion.dim)
+        return 6 - len(self.wrenches) == motion.dim and self._leave_translations(motion)
+
+    def resist_turns_of(self, motion: RequiredMotion) -> bool:
+        """Whether they leave as many translations as the motion has, and fewer freedoms."""
+        return 6 - len(self.wrenches) < motion.dim and self._leave_translations(motion)
+
+    def _leave_translations(self, motion: RequiredMotion) -> bool:
+        pushed: int = self.forces.shape[1]
+        return len(motion.translations) + pushed == 3
 
 
 def constraints_of(twists: FloatArray) -> HomeConstraints:
@@ -62,20 +80,12 @@ def constraints_of(twists: FloatArray) -> HomeConstraints:
     >>> constraints_of(gripped).forces.ravel().round(12).tolist() in ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])
     True
     """
-    return of_wrenches(null_basis(twists.T[None])[0].T)
+    return HomeConstraints(null_basis(twists.T[None])[0].T)
 
 
 def together(parts: Sequence[FloatArray]) -> HomeConstraints:
     """The constraints of several limbs, by the wrenches (n, 6) of each."""
-    return of_wrenches(_basis(np.concatenate(parts)))
-
-
-def of_wrenches(wrenches: FloatArray) -> HomeConstraints:
-    """The directions of wrenches (n, 6) that are independent."""
-    if not len(wrenches):
-        return HomeConstraints(wrenches, np.zeros((3, 0)), np.zeros((3, 0)))
-    pure = null_basis(wrenches[None, :, 3:].swapaxes(-1, -2))[0]  # combinations without a force
-    return HomeConstraints(wrenches, _basis(wrenches[:, 3:]).T, _basis(pure.T @ wrenches[:, :3]).T)
+    return HomeConstraints(_basis(np.concatenate(parts)))
 
 
 def _basis(rows: FloatArray) -> FloatArray:
@@ -92,12 +102,13 @@ def home_twists(chain: Chain, turn: FloatArray, seed: int, end: End = "") -> Flo
         chain: in its first position.
         turn: (3, 3) into its position.
         seed: of the place and the lengths of its links.
-        end: where its first axis, or its last, runs through the origin.
+        end: where its first axis runs through the origin, or its last through the point `BESIDE`.
     """
     twists = twists_at_will(chain, np.random.default_rng(seed), 1, 0.0)[0]
     if end:
+        beside = np.zeros(3) if end == "base" else BESIDE
         axes = [place for place in range(twists.shape[1]) if np.any(twists[:3, place])]
         line = twists[:, axes[0 if end == "base" else -1]]
-        shift = -np.cross(line[:3], line[3:])  # the axis' point next to the origin comes there
+        shift = beside - np.cross(line[:3], line[3:])  # the axis' point next to the origin comes there
         twists = np.concatenate([twists[:3], twists[3:] + np.cross(shift, twists[:3], axisb=0, axisc=0)])
     return np.concatenate([turn @ twists[:3], turn @ twists[3:]])

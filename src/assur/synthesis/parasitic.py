@@ -6,27 +6,19 @@ axes; and a finite motion of each mechanism confirms it, that its freedom lasts.
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cache
-from itertools import chain as joined
-from itertools import combinations_with_replacement, product
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from assur.numerics.rotations import about_axis
+from assur.synthesis.arrangements import TURNS, ArrangedClasses
 from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members, mechanism
-from assur.synthesis.classes import AMONG, Class, simplicity
+from assur.synthesis.classes import Class, simplicity
 from assur.synthesis.designs import Design, DeterminingSet, least
-from assur.synthesis.home_constraints import constraints_of, home_twists, together
+from assur.synthesis.home_constraints import constraints_of, home_twists
 from assur.synthesis.limb_motions import CandidateLimb, limb_by_itself
 from assur.synthesis.limbs import FREE, Actuators, LimbType, short_types
-from assur.synthesis.positions import DIGITS, SWAP, turned
+from assur.synthesis.positions import SWAP, turned
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.shared_axes import End, Lines, common_lines, on_lines, with_common_lines
 from assur.synthesis.tally import Tally
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse
@@ -37,61 +29,15 @@ from assur.topology.facts import Topology
 from assur.topology.screws.configurations import ImmobileError, configurations
 from assur.topology.screws.linkage import Linkage
 from assur.topology.screws.placing import place
+from assur.topology.screws.screws import screw_tree
+from assur.topology.screws.second_order import second_order
 from assur.topology.screws.twists import UnclearRankError, dimensions, edges, motion_space
-
-FloatArray = NDArray[np.float64]
-
-_THIRDS = (about_axis(np.array([0.0, 0.0, 1.0]), np.radians(np.array(angle))) for angle in (120.0, 240.0))
-
-TURNS = (np.eye(3), SWAP, *(np.round(turn, DIGITS) for turn in _THIRDS))
-"""Positions of a limb: as written, with x and y exchanged, turned about z by a third and by two thirds of a turn."""
-
-EVENLY = (0, 2, 3)
-"""Positions of three limbs evenly about z."""
 
 SEEDS = (1, 2)
 """Two places of a limb: the directions of its constraints must not depend on where it stands."""
 
 TRIES, BARREN = 40, 12
 """So many mechanisms of different limbs are moved to find those that are listed, fewer if there is none among them."""
-
-
-@dataclass(frozen=True, eq=False)
-class ArrangedClasses:
-    """Limbs by the class of each, in an arrangement in which their constraints leave the motion at home.
-
-    Attributes:
-        chosen: the class of each limb.
-        places: the position of each.
-        lines: about which some of them turn, of the base or the platform.
-    """
-
-    chosen: tuple[Class, ...]
-    places: tuple[int, ...]
-    lines: Lines
-
-    def chains(self, limbs: Sequence[CandidateLimb]) -> tuple[Chain, ...]:
-        """How limbs, one of each class, stand in it."""
-        placed = [limb.chains[place] for limb, place in zip(limbs, self.places, strict=True)]
-        return with_common_lines(placed, self.lines)
-
-    @property
-    def members(self) -> int:
-        """Mechanisms that it stands for; limbs of one class that stand alike change places."""
-        return math.prod(math.comb(len(limbs) + count - 1, count) for limbs, count in self._slots())
-
-    def simplest(self) -> list[tuple[CandidateLimb, ...]]:
-        """One limb of each class, the simplest first, among the simplest of each class."""
-        few = int(AMONG ** (1 / len(self.chosen)))
-        choices = [combinations_with_replacement(limbs[:few], count) for limbs, count in self._slots()]
-        return sorted((tuple(joined.from_iterable(parts)) for parts in product(*choices)), key=simplicity)
-
-    def _slots(self) -> list[tuple[Class, int]]:
-        """Limbs of one class that stand alike, and how many; those evenly about z do."""
-        places = (0,) * len(self.places) if self.places == EVENLY else self.places
-        counts = Counter((id(limbs), place) for limbs, place in zip(self.chosen, places, strict=True))
-        by_id = {id(limbs): limbs for limbs in self.chosen}
-        return [(by_id[number], count) for (number, _), count in counts.items()]
 
 
 def limb_classes(motion: RequiredMotion, actuators: Actuators, *, passive: bool) -> tuple[Class, ...]:
@@ -130,41 +76,6 @@ def limb_with_directions(limb: LimbType, motion: RequiredMotion) -> tuple[tuple[
     return key, limb_by_itself(stood, TURNS)
 
 
-def arranged_classes(sets: Iterable[tuple[Class, ...]], motion: RequiredMotion) -> Iterator[ArrangedClasses]:
-    """Those of the sets, one class for each limb, that leave just the motion at home, in each such arrangement."""
-
-    @cache
-    def wrenches(limb: CandidateLimb, slot: int, place: int, line: End) -> FloatArray:
-        return constraints_of(home_twists(limb.type.chain, TURNS[place], slot, line)).wrenches
-
-    for chosen in sets:
-        simplest = [members[0] for members in chosen]
-        for places in _placements(chosen):
-            chains = [limb.chains[place] for limb, place in zip(simplest, places, strict=True)]
-            for lines in common_lines(chains):
-                on = {number: end for end, numbers in on_lines(chains, lines).items() for number in numbers}
-                ends: list[End] = [on.get(slot, "") for slot in range(len(chosen))]
-                if together(list(map(wrenches, simplest, range(len(chosen)), places, ends))).leave(motion):
-                    yield ArrangedClasses(chosen, places, lines)
-                    break
-
-
-def _placements(chosen: Sequence[Class]) -> list[tuple[int, ...]]:
-    """Positions of limbs, each set once: at right angles, evenly about z; free ones as written."""
-    free = [limbs[0].type.freedoms == FREE for limbs in chosen]
-
-    def stood(places: Sequence[int]) -> list[tuple[int, int]]:
-        return sorted((id(limbs), place) for limbs, place in zip(chosen, places, strict=True))
-
-    kept: dict[str, tuple[int, ...]] = {}
-    for places in product((0, 1), repeat=len(chosen)):
-        across = [0 if none else 1 - place for none, place in zip(free, places, strict=True)]  # x and y exchanged
-        if not any(none and place for none, place in zip(free, places, strict=True)):
-            kept.setdefault(repr(min(stood(places), stood(across))), places)
-    several = len(chosen) == len(EVENLY) and sum(free) < len(chosen) - 1
-    return [*kept.values(), EVENLY] if several else list(kept.values())
-
-
 def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
     """The simplest mechanisms of some classes of which a finite motion confirms that their freedom lasts, best first.
 
@@ -172,7 +83,7 @@ def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
         arranged: of whose constraints at home the motion is known.
         sought: what is asked of them; its placements do not matter.
     """
-    equal = [limbs for limbs in arranged.simplest() if all(limb is limbs[0] for limb in limbs)]
+    equal = arranged.equal
     others = [] if sought.symmetric else [limbs for limbs in arranged.simplest()[:TRIES] if limbs not in equal]
     known = [limbs for limbs in equal if mechanism(limbs) in sought.known]
     named = [*known, *known_members(arranged.chosen, sought.known)]
@@ -242,7 +153,13 @@ def _determining(topology: Topology) -> tuple[DeterminingSet, ...]:
 
 
 def _keeps_its_freedoms(linkage: Linkage, motion: RequiredMotion) -> bool:
-    """Whether a displaced platform has as many freedoms as a motion; known much faster than its topology."""
+    """Whether a displaced platform has as many freedoms as a motion; known much faster than its topology.
+
+    Most that lose some lose them to the second order already, which needs no displacement.
+    """
+    home = second_order(linkage, np.zeros(len(screw_tree(linkage).scales)))
+    if home.freedoms < home.instantaneous:
+        return False
     displaced = edges(linkage, configurations(linkage, len(SEEDS)))
     t, r, dim = dimensions(motion_space(displaced, linkage.base, linkage.platform))
     return dim == motion.dim < t + r

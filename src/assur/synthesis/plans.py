@@ -9,14 +9,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
-from assur.synthesis.assembly import MechanismFamily, Range, Sought, assemble
+from assur.synthesis.arrangements import arranged_classes
+from assur.synthesis.assembly import MechanismFamily, Range, Sought, assemble, known_members
 from assur.synthesis.classes import Class, chosen_classes, classes, number_of_members
 from assur.synthesis.following_limbs import classes_by_constraints, following_limbs, following_types, sets_leaving
 from assur.synthesis.isomorphism import Key
 from assur.synthesis.known_mechanisms import known_by_directions, known_mechanisms
 from assur.synthesis.limb_motions import LimbVerdict, verdict
 from assur.synthesis.limbs import hybrid_types, limb_types
-from assur.synthesis.parasitic import arranged_classes, limb_classes, moved
+from assur.synthesis.parasitic import limb_classes, moved
 from assur.synthesis.positions import placements, positions
 from assur.synthesis.question import SynthesisQuestion
 from assur.synthesis.required import RequiredMotion
@@ -45,6 +46,11 @@ class ClassSet:
     members: int
     family: Callable[[], MechanismFamily]
 
+    def may_have(self, key: Key) -> bool:
+        """Whether a mechanism has one limb of each class, by its canonical form."""
+        alike = all(any(limb.type.key == key[0] for limb in limbs) for limbs in self.chosen)
+        return alike if len(set(key)) == 1 else bool(known_members(self.chosen, [key]))
+
 
 @dataclass(frozen=True, eq=False)
 class SearchPlan:
@@ -69,9 +75,17 @@ class SearchPlan:
     @property
     def effort(self) -> str:
         """About how long it takes to look at all sets, and how much memory, on a machine of today."""
-        members = sum(min(some.members, LISTED) for some in self.sets)
-        minutes, megabytes = math.ceil(members * self.seconds / 60), math.ceil(members * MEGABYTES)
-        return f"{len(self.sets)} families, about {minutes} min and {megabytes} MB"
+        megabytes = math.ceil(self._looked_at * MEGABYTES)
+        return f"{len(self.sets)} families, about {math.ceil(self.duration / 60)} min and {megabytes} MB"
+
+    @property
+    def duration(self) -> float:
+        """Seconds that it takes to look at all sets, about."""
+        return self._looked_at * self.seconds
+
+    @property
+    def _looked_at(self) -> int:
+        return sum(min(some.members, LISTED) for some in self.sets)
 
     @property
     def combinations(self) -> int:

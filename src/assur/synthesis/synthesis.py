@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,6 +20,9 @@ from assur.synthesis.question import Novelty, SynthesisQuestion
 from assur.synthesis.tally import Tally, total
 from assur.topology.agreement import RoutesDisagreeError
 
+PATIENCE = 30.0
+"""Seconds, as estimated, that are spent on the rank of one mechanism."""
+
 
 @dataclass(frozen=True, eq=False)
 class Synthesis:
@@ -32,6 +35,7 @@ class Synthesis:
         tally: of the combinations.
         families: the mechanisms by the classes of their limbs, the family of the best one first.
         kept: so many sets of classes an earlier run had looked at.
+        whole: whether all sets were looked at, or those alone that may have one mechanism.
     """
 
     asked: SynthesisQuestion
@@ -40,6 +44,7 @@ class Synthesis:
     tally: Tally
     families: tuple[MechanismFamily, ...]
     kept: int = 0
+    whole: bool = True
 
     @cached_property
     def designs(self) -> tuple[Design, ...]:
@@ -53,7 +58,7 @@ def ignored(done: int, whole: int) -> None:
 
 
 def synthesis(
-    asked: SynthesisQuestion, *, step: Step = ignored, most: int | None = None, also: Sequence[Key] = ()
+    asked: SynthesisQuestion, *, step: Step = ignored, most: int | None = None, sought: Key | None = None
 ) -> Synthesis:
     """Mechanisms with a wanted motion, each confirmed by twists; by rules, too, where places make no difference.
 
@@ -64,7 +69,8 @@ def synthesis(
         asked: the question.
         step: called with (steps done, steps in all).
         most: combinations at most; any number where None.
-        also: canonical forms of mechanisms that are listed however many joints they have, as known ones are.
+        sought: canonical form of a mechanism that is listed however many joints it has, as known ones are; where all
+            sets of classes would take longer than `PATIENCE`, those that may have it are looked at alone.
 
     Errors:
         UsageError: more combinations.
@@ -78,13 +84,14 @@ def synthesis(
         [('three_crr',)]
     """
     parts = 2 * (len(asked.rows) or 1)
+    also = () if sought is None else (sought,)
     with kept_families(dataclasses.replace(asked, novelty=""), also) as kept:
         search = _Search(asked, kept)
         try:
             before = [_part(step, number, parts) for number in range(0, parts, 2)]
             for number, plan in enumerate(plans(asked, before, also)):
                 _refuse_more(most, plan)
-                search.run(plan, _part(step, 2 * number + 1, parts))
+                search.run(plan, _part(step, 2 * number + 1, parts), sought)
         except KeyboardInterrupt:
             raise Interrupted(search.answer()) from None
     return search.answer()
@@ -106,9 +113,10 @@ class _Search:
         self.asked, self.kept = asked, kept
         self.plans: list[SearchPlan] = []
         self.families: list[MechanismFamily] = []
+        self.whole = True
 
-    def run(self, plan: SearchPlan, step: Step) -> None:
-        """Look at all sets of classes of a plan, but those whose families are kept.
+    def run(self, plan: SearchPlan, step: Step, sought: Key | None) -> None:
+        """Look at all sets of classes of a plan, but those whose families are kept; at few of many if one is sought.
 
         Errors:
             KeyboardInterrupt: Ctrl-C, also one that came while the plan was made.
@@ -116,8 +124,12 @@ class _Search:
         self.plans.append(plan)
         if plan.cut:
             raise KeyboardInterrupt
+        few = sought is not None and plan.duration > PATIENCE
+        self.whole &= not few
         for done, some in enumerate(plan.sets):
             step(done, len(plan.sets))
+            if few and sought is not None and not some.may_have(sought):
+                continue
             self.families.append(self.kept.family(f"{len(self.plans)}.{done}", some))
 
     def answer(self) -> Synthesis:
@@ -136,6 +148,7 @@ class _Search:
             tally=tally,
             families=tuple(sorted(kept, key=lambda family: family.designs[0].order)),
             kept=self.kept.reread,
+            whole=self.whole,
         )
 
 

@@ -167,7 +167,8 @@ class ExplanationAnswer(Answer):
         chains: its limbs.
         dropped_by: the first filter that drops it, "limbs", "drives", "words", "limb", "motion", "arrangement",
             "actuation", "coupling", "symmetry" or "novelty"; null where it is listed.
-        rank: among the mechanisms, and `family` that of its family; null where it is not listed.
+        rank: among the mechanisms, and `family` that of its family; null where it is not listed, and where only
+            the sets of limbs that may have it were looked at, as all would take long.
         listed_as: its limbs as they stand in the list; none where it is not listed.
     """
 

@@ -6,12 +6,13 @@ from collections import Counter
 from collections.abc import Sequence
 
 from assur.errors import UsageError
+from assur.synthesis.arrangements import arranged_classes
 from assur.synthesis.assembly import Range, Sought
 from assur.synthesis.filters.explained import Explanation, by_family, by_length, misdriven, written_among
 from assur.synthesis.known_mechanisms import DrivenLimb, placed_limbs
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.limbs import FREE, SHORT, TYPES, LimbType, short_types
-from assur.synthesis.parasitic import arranged_classes, limb_with_directions, moved
+from assur.synthesis.parasitic import limb_with_directions, moved
 from assur.synthesis.question import ANY, SynthesisQuestion
 from assur.synthesis.shared_axes import without_labels
 from assur.topology.chains import ChainJoint
