@@ -13,11 +13,14 @@ from assur.derivation.printed_derivation import printed_derivation
 from assur.derivation.reasons import left_out
 from assur.derivation.solution import analytic_solution
 from assur.derivation.velocities import velocity_equations
+from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
+from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
+from assur.kinematics.closing_blocks.kept import carried_signs, kept_signs
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.home import home_values
-from assur.kinematics.naming import sign_meanings
+from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.kernels.reading import names_of
@@ -269,6 +272,45 @@ def test_a_limb_beside_one_that_is_straight_has_a_closed_form_that_its_joint_gra
     assert 2 ** len(sign_meanings(record, "inverse")) == branches
     assert ("negative length" in form.reduced_because) == (branches == 1)
     assert form.factor_list
+
+
+def tilted(folder):
+    """A Delta whose cranks turn about axes that a parameter tilts, along the short sides of the parallelograms."""
+    path = folder / "tilted.toml"
+    text = drafted(repeated("R[0,0.8,0.6] P(4S)[0,0.8,0.6]", 3), path).text
+    head, _, rest = text.partition("[modes]")
+    text = head + rest[rest.index("[workspace]") :]
+    text = text.replace("[parameters]", "[parameters]\n" + TILT, 1).replace("[0, 0.8, 0.6]", f"[0, {COS}, {SIN}]")
+    for number, written in (("0.4*B_w", "cos(tilt)*B_w/2"), ("0.3*B_w", "sin(tilt)*B_w/2")):
+        text = text.replace(number, written)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+TILT = 'tilt = { value = 36.86989764584402, unit = "deg", sign = "any", meaning = "of the cranks\' axes" }'
+COS, SIN = '"cos(tilt)"', '"sin(tilt)"'
+
+
+@pytest.mark.deep
+def test_signs_of_blocks_are_carried_to_axes_that_point_elsewhere(tmp_path):
+    """With the spaces of the file's own tilt some signs would be others, near where blocks are singular."""
+    path = tilted(tmp_path)
+    file, other = load_record(path), load_record(path, tilt=33.0)
+    joints = assemblies_by_chance(other)
+    screws = ScrewColumns(with_ball_ends(other), ball_ended_values(other, joints))
+    own, still = (
+        np.array([sign.signs(screws) for sign in signs]).T
+        for signs in (carried_signs(other, "inverse"), kept_signs(file, "inverse"))
+    )
+    named = signs_at(other, "inverse", joints)
+    sense = own[0] * named[0]
+    assert np.array_equal(own * sense, named)
+    assert not np.array_equal(still * still[0] * named[0], named)
+
+
+@pytest.mark.deep
+def test_cranks_about_axes_that_a_parameter_tilts_have_a_closed_form(tmp_path):
+    assert "tilt" in derived_closed_form(load_record(tilted(tmp_path)))  # which is held against the joint graph
 
 
 @pytest.mark.deep

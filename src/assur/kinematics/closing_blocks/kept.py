@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from assur.cache import code_digest, keep, own_content
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
+from assur.kinematics.closing_blocks.carried import carried
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
 from assur.kinematics.closing_blocks.sentences import sentence
@@ -50,7 +51,8 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
     [('A1', 'A2', 'A3', 'B1', 'B2', 'B3')]
     """
     if record.modes.of_file != record.modes:  # the closed form has the names that there are with the file's dimensions
-        record = of_file(record).without_closed_form
+        own = of_file(record).without_closed_form
+        return kept_signs(own, problem) if _directions(own) == _directions(record) else carried_signs(record, problem)
     if record.description is None:
         return distinguishing_signs(record, problem)
     name = _name(record, problem)
@@ -64,6 +66,25 @@ def kept_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...
     with suppress(OSError):
         keep(KIND, name, hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
     return signs
+
+
+@lru_cache(maxsize=16)
+def carried_signs(record: MechanismRecord, problem: Problem) -> tuple[ModeSign, ...]:
+    """The signs of the file's dimensions in the spaces that screws span with others, by which axes point elsewhere.
+
+    >>> from assur.model.registry import load_record
+    >>> [sign.joints for sign in carried_signs(load_record("fivebar", l1=130), "direct")]
+    [('B1', 'B2', 'P')]
+    """
+    signs = kept_signs(of_file(record).without_closed_form, problem)
+    own = {sign.joints: sign for sign in distinguishing_signs(record.without_closed_form, problem)}
+    return tuple(carried(sign, own.get(sign.joints)) for sign in signs)
+
+
+def _directions(record: MechanismRecord) -> list[list[float]]:
+    """Axes of all joints, in the frames of their links."""
+    parts = [(joint.axes, joint.turn) for joint in record.joints.values()]
+    return [np.concatenate([np.ravel(own) for own in part]).tolist() for part in parts]
 
 
 def kept_signs_at(record: MechanismRecord, problem: Problem, joints: NDArray[np.float64]) -> NDArray[np.int8]:
