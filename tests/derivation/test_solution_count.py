@@ -1,15 +1,19 @@
 """Solutions counted modulo primes, without the elimination, are as many as the derived branches."""
 
+import itertools
+import math
 import stat
 
+import numpy as np
 import pytest
 
 from assur.derivation import residue_systems
-from assur.derivation.residue_systems import ResidueSystem
+from assur.derivation.residue_systems import ResidueSystem, staircase
 from assur.derivation.solution import analytic_solution
 from assur.derivation.solution_count import solution_count
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
+from assur.synthesis.drafting.repeating import repeated
 from assur.topology.notation import parse_chains
 
 QUICK = ("fivebar",)
@@ -26,7 +30,7 @@ def no_msolve(monkeypatch):
 def test_the_count_is_that_of_the_branches(name, no_msolve):
     record = load_record(name)
     own = solution_count(record, "direct")
-    assert (own.solutions, own.why, own.program) == (analytic_solution(record, "direct").branches, "", "sympy")
+    assert (own.solutions, own.why, own.program) == (analytic_solution(record, "direct").branches, "", "linear algebra")
     assert len({*own.primes}) == 2
 
 
@@ -60,6 +64,29 @@ def test_a_count_over_the_time_is_none(no_msolve):
 )
 def test_none_and_infinitely_many_are_told(polynomials, expected, no_msolve):
     assert ResidueSystem(101, 2, polynomials).count(60.0)[0] == expected
+
+
+@pytest.mark.parametrize(("degrees", "shared"), [((2, 2, 2), 0), ((2, 2, 2), 1), ((2, 3, 2), 2), ((2, 2, 2, 2), 2)])
+def test_linear_algebra_and_a_groebner_basis_count_alike(degrees, shared):
+    """Solutions at infinity are left out by both: highest parts of some polynomials are multiples of one another's."""
+    random, p, unknowns = np.random.default_rng(shared), 10007, 3
+    monomials = list(itertools.product(range(4), repeat=unknowns))
+    drawn = [{own: int(random.integers(1, p)) for own in monomials if sum(own) <= degree} for degree in degrees]
+    for own in drawn[1 : 1 + shared]:
+        own |= {powers: part for powers, part in drawn[0].items() if sum(powers) == max(map(sum, own)) == 2}
+    answer = residue_systems._count(p, unknowns, [[*own.items()] for own in drawn])
+    basis = residue_systems._leading(p, unknowns, [[*own.items()] for own in drawn])
+    assert answer == (staircase(basis, unknowns), "linear algebra")
+    assert answer[0] < math.prod(degrees) or not shared
+
+
+@pytest.mark.deep
+def test_three_limbs_of_two_circles_each_are_counted(no_msolve, tmp_path):
+    """Six quadrics in six unknowns, which have no solution at infinity."""
+    path = tmp_path / "draft.toml"
+    path.write_text(drafted(repeated("R[y] P(4R)[x] R[y] R[y]", 3), path).text, encoding="utf-8")
+    own = solution_count(load_record(path), "direct")
+    assert (own.solutions, own.program) == (2**6, "linear algebra")
 
 
 def test_a_program_on_the_path_is_asked_first(tmp_path, monkeypatch):

@@ -1,8 +1,8 @@
 """Systems of polynomials modulo a prime, and how many solutions they have: the monomials under a Groebner basis.
 
-msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else SymPy does, in a
-process that is stopped when its time is over. Run as a module, this finds the leading monomials of the system on its
-standard input.
+msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else linear algebra does,
+and where matrices would be too large SymPy, in a process that is stopped when its time is over. Run as a module, this
+counts the solutions of the system on its standard input, or finds its leading monomials.
 """
 
 from __future__ import annotations
@@ -13,13 +13,15 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import sympy
 
+from assur.derivation.truncated_ideals import solutions
 from assur.derivation.witness import ModularWitness
 
 Monomial = tuple[int, ...]
@@ -84,8 +86,14 @@ class ResidueSystem:
         2
         """
         own = self.reduced()
-        leading, program = own._leading_monomials(seconds)
-        return staircase(leading, own.unknowns), program
+        if own._trivial or shutil.which("msolve"):
+            leading, program = own._leading_monomials(seconds)
+            return staircase(leading, own.unknowns), program
+        try:
+            number, program = own._in_process("count", seconds)
+        except subprocess.TimeoutExpired as error:
+            raise TimeoutError(f"not counted in {seconds:g} s") from error
+        return number, program
 
     def dimension(self, seconds: float) -> int:
         """How many unknowns may be chosen: 0 where there are finitely many solutions, -1 where there are none.
@@ -102,12 +110,15 @@ class ResidueSystem:
         free = (some for some in chosen if not any(_within(powers, some) for powers in leading))
         return len(next(free, ())) - any(not any(powers) for powers in leading)
 
+    @property
+    def _trivial(self) -> bool:
+        """Whether nothing is left, or a number that vanishes."""
+        return not any(self.polynomials) or any(own and not any(map(any, own)) for own in self.polynomials)
+
     def _leading_monomials(self, seconds: float) -> tuple[list[Monomial], str]:
         """Those of a Groebner basis, and by which program. Errors: TimeoutError."""
-        if any(own and not any(map(any, own)) for own in self.polynomials):
-            return [(0,) * self.unknowns], "linear equations"
-        if not any(self.polynomials):
-            return [], "linear equations"
+        if self._trivial:
+            return [(0,) * self.unknowns] if any(self.polynomials) else [], "linear equations"
         program = shutil.which("msolve")
         try:
             return (self._by_msolve(program, seconds), "msolve") if program else (self._by_sympy(seconds), "sympy")
@@ -128,14 +139,18 @@ class ResidueSystem:
         return [_monomial(part, names) for part in found[1].split(",")]
 
     def _by_sympy(self, seconds: float) -> list[Monomial]:
+        return [tuple(powers) for powers in self._in_process("leading", seconds)]
+
+    def _in_process(self, what: str, seconds: float) -> Any:
+        """The answer of a process that can be stopped. Errors: TimeoutExpired."""
         data = [
             self.prime,
             self.unknowns,
             [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials],
         ]
-        words = [sys.executable, "-m", "assur.derivation.residue_systems"]
+        words = [sys.executable, "-m", "assur.derivation.residue_systems", what]
         run = subprocess.run(words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True)
-        return [tuple(powers) for powers in json.loads(run.stdout)]
+        return json.loads(run.stdout)
 
 
 def residue_system(
@@ -220,5 +235,16 @@ def _leading(prime: int, unknowns: int, polynomials: Sequence[Sequence[tuple[Seq
     return [tuple(polynomial.LM) for polynomial in groebner(given, own)]
 
 
+def _count(
+    prime: int, unknowns: int, polynomials: Sequence[Sequence[tuple[Sequence[int], int]]]
+) -> tuple[int | None, str]:
+    """How many solutions, and by what: linear algebra, else what stands under SymPy's Groebner basis."""
+    given = [{tuple(powers): part for powers, part in own} for own in polynomials]
+    if (count := solutions(prime, unknowns, given)) is not None:
+        return count, "linear algebra"
+    return staircase(_leading(prime, unknowns, polynomials), unknowns), "sympy"
+
+
 if __name__ == "__main__":
-    sys.stdout.write(json.dumps(_leading(*json.loads(sys.stdin.read()))))
+    answers: Mapping[str, Callable[..., object]] = {"count": _count, "leading": _leading}
+    sys.stdout.write(json.dumps(answers[sys.argv[1]](*json.loads(sys.stdin.read()))))
