@@ -1,5 +1,6 @@
 """Derived polynomials serve like hand-written ones, also of drafts that nobody has solved by hand."""
 
+import itertools
 import shutil
 from itertools import pairwise
 
@@ -7,7 +8,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from assur.derivation import eliminants
 from assur.derivation.derivation import derive
+from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.solution import analytic_solution
+from assur.derivation.witness import NoResidueRootError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.exact import exactness
@@ -122,3 +127,22 @@ def test_poses_of_one_angle_are_both_found(tmp_path):
                 assert answer.complete
                 pair = [[*place, phi], [*(2 * (place @ along) * along - place), phi]]
                 assert apart(written, pair, [other.pose for other in answer]) < 1e-4
+
+
+def test_coefficients_that_are_no_residues_at_one_draw_are_drawn_again(monkeypatch):
+    """As of a Par4, whose rods have roots of their own: two draws fail here, then all of them."""
+    record, polynomial = load_record("planar_3rpr"), eliminants.polynomial
+    plain, failing = analytic_solution(record, "direct"), iter([True, True])
+
+    def drawn(eliminant, witness):
+        if next(failing, False):
+            raise NoResidueRootError("no residue")
+        return polynomial(eliminant, witness)
+
+    monkeypatch.setattr(eliminants, "polynomial", drawn)
+    again = analytic_solution.__wrapped__(record, "direct")
+    assert again.eliminant.degree == plain.eliminant.degree == 6
+    assert next(failing, None) is None
+    failing = itertools.repeat(True)  # from here on no draw is one
+    with pytest.raises(NotDerivedError, match="no draw makes residues"):
+        analytic_solution.__wrapped__(record, "direct")

@@ -78,7 +78,9 @@ def test_pdflatex_sets_a_whole_report_without_figures(findings, page, tmp_path):
     numbers = re.findall(r'id="equation-(\d+)"', page_html(page))
     assert document.count(r"\begin{equation}") == len(numbers) == int(numbers[-1]) > 100
     compiled(tmp_path)
-    assert not re.search(r"LaTeX Warning: (Reference|Citation)", (tmp_path / "report.log").read_text("latin-1"))
+    log = (tmp_path / "report.log").read_text("latin-1")
+    assert not re.search(r"LaTeX Warning: (Reference|Citation|Float too large)", log)
+    assert "U+" not in document + "".join(path.read_text() for path in (tmp_path / "tables").glob("*.tex"))
 
 
 @pytest.mark.latex

@@ -279,13 +279,18 @@ def _determinant(rows: Matrix) -> sympy.Expr:
 
 def _shaped(eliminant: AngleEliminant, witness: ModularWitness) -> AngleEliminant:
     """With its degree, and how often 1 + t^2 divides it. Errors: NotDerivedError, where it is none of that degree."""
-    own, spare = polynomial(eliminant, witness)
     name = eliminant.direction.name
+    for _ in range(DRAWS):
+        with contextlib.suppress(NoResidueRootError):
+            (own, spare), known = polynomial(eliminant, witness), residues(eliminant, witness, backward=True)
+            break
+        witness.draw_again()
+    else:
+        raise NotDerivedError(f"with {name} taken as known, coefficients have roots that no draw makes residues")
     if own.degree() < 1:
         raise NotDerivedError(f"with {name} taken as known, nothing is left that says where it is")
     if own.gcd(own.derivative()).degree() > 0:
         raise NotDerivedError(f"the polynomial in {name} has multiple roots")
-    known = residues(eliminant, witness, backward=True)
     if any(own.gcd(known[divisor]).degree() > 0 for divisor in eliminant.divisors):
         raise NotDerivedError(f"the polynomial in {name} has roots that say nothing")
     return replace(eliminant, spare=spare, degree=own.degree())

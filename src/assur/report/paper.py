@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -38,6 +39,8 @@ HEAD = r"""\documentclass[10pt,a4paper]{article}
 \setlength{\textwidth}{176mm}\setlength{\oddsidemargin}{-8.4mm}\setlength{\evensidemargin}{-8.4mm}
 \setlength{\textheight}{240mm}\setlength{\topmargin}{-14mm}
 \setcounter{MaxMatrixCols}{40}
+\renewcommand{\topfraction}{0.9}\renewcommand{\bottomfraction}{0.8}
+\renewcommand{\textfraction}{0.06}\renewcommand{\floatpagefraction}{0.75}
 \graphicspath{{figures/}}
 \newsavebox{\drawnbox}
 \newcommand{\fitted}[1]{\sbox{\drawnbox}{#1}\ifdim\wd\drawnbox>0.94\linewidth
@@ -45,11 +48,17 @@ HEAD = r"""\documentclass[10pt,a4paper]{article}
 \sloppy
 """
 LEVELS = ("section", "subsection", "subsubsection", "paragraph")
-LONGEST = 36
-"""Rows of a table in print; the others are in its CSV file."""
+LONGEST, LINES, TALL = 36, 56, 3
+"""Rows and lines of a table in print, and the lines of a formula; other rows are in its CSV file."""
 
-WORDS = 34
-"""A cell with more letters is set as a paragraph."""
+PARAGRAPHS = (34, 24, 16, 10)
+"""A column whose cells have more letters is set as paragraphs; fewer where the others then fit the page."""
+
+ROOM, LETTER, BETWEEN, NARROWEST = 160.0, 1.55, 4.3, 18.0
+"""Of a table in mm: its width, that of a letter on average, the white between columns, and a paragraph at least."""
+
+FORMULA, WORD = 24, 26
+"""Letters that a formula in a cell is reckoned as wide as, and those of a word at most that a paragraph is wide for."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +118,7 @@ class Paper:
         path = f"{TABLES}/{name}"
         self.files[f"{path}.csv"] = table_csv(table)
         self.files[f"{path}.tex"] = table_tex(table)
-        rest = len(table.rows) - LONGEST
+        rest = len(table.rows) - _in_print(table)
         more = f" {rest} further rows are in the file {path}.csv." if rest > 0 else ""
         known = f" Known by: {table.known_by}." if table.known_by else ""
         yield r"\begin{table}[htbp]\centering\footnotesize"
@@ -166,12 +175,56 @@ def table_tex(table: Table) -> str:
     \end{tabular}
     <BLANKLINE>
     """
-    rows = [[_cell(cell) for cell in row] for row in table.rows[:LONGEST]]
-    texts = [[cell for cell in column if isinstance(cell, str)] for column in zip(*table.rows, strict=True)]
-    wide = [max(map(len, column), default=0) > WORDS for column in texts] or [False] * len(table.columns)
-    kinds = "".join(r">{\raggedright\arraybackslash}p{50mm}" if own else "l" for own in wide)
+    rows = [[_cell(cell) for cell in row] for row in table.rows[: _in_print(table)]]
+    kinds = "".join(
+        "l" if own is None else rf">{{\raggedright\arraybackslash}}p{{{own:.0f}mm}}" for own in _paragraphs(table)
+    )
     lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", _row(map(prose, table.columns)), r"\hline"]
     return "\n".join([*lines, *map(_row, rows), r"\hline", r"\end{tabular}"]) + "\n"
+
+
+def _paragraphs(table: Table) -> list[float | None]:
+    """Widths in mm of the columns that are set as paragraphs, None for others: so that the page holds all at full size.
+
+    >>> _paragraphs(Table("t", ("a", "b"), (("short", "words " * 40),))), _paragraphs(Table("t", ("a",), (("short",),)))
+    ([None, 143.65], [None])
+    """
+    columns = list(zip(table.columns, *table.rows[:LONGEST], strict=True))
+    letters = [max(map(_letters, own)) for own in columns]
+    for most in PARAGRAPHS:
+        long = [count for count in letters if count > most]
+        left = ROOM - BETWEEN * len(letters) - sum(LETTER * count for count in letters if count <= most)
+        if left >= NARROWEST * len(long):
+            break
+    share = max(left, NARROWEST * len(long)) / sum(map(math.sqrt, long), start=1e-300)
+    words = [max(len(word) for cell in own for word in [*str(cell).split(), ""]) for own in columns]
+    return [
+        max(min(LETTER * count, share * math.sqrt(count)), LETTER * min(word, WORD)) if count > most else None
+        for count, word in zip(letters, words, strict=True)
+    ]
+
+
+def _in_print(table: Table) -> int:
+    """How many of the first rows a page has room for.
+
+    >>> _in_print(Table("t", ("a",), (("short",),) * 50)), _in_print(Table("t", ("a",), (("words " * 300,),) * 50))
+    (36, 3)
+    """
+    widths, lines = _paragraphs(table), 0
+    for count, row in enumerate(table.rows[:LONGEST]):
+        lines += max(
+            TALL if isinstance(cell, PrintedFormula) else math.ceil(LETTER * _letters(cell) / width) if width else 1
+            for cell, width in zip(row, widths, strict=True)
+        )
+        if lines > LINES:
+            return max(count, 1)
+    return min(len(table.rows), LONGEST)
+
+
+def _letters(cell: Cell) -> int:
+    if isinstance(cell, PrintedFormula):
+        return FORMULA
+    return len(typeset_text.short(cell)) if isinstance(cell, float) else len(str(cell or "--"))
 
 
 def _row(cells: Iterable[str]) -> str:

@@ -13,14 +13,30 @@ MATHEMATICAL = {sign: f"^{{{power}}}" for sign, power in zip("⁰¹²³⁴⁵⁶
 MATHEMATICAL |= {sign: f"_{{{power}}}" for sign, power in zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True)}
 MATHEMATICAL |= {sign: f"_{{{name}}}" for sign, name in zip("ᵢⱼᵣₖₘₙ", "ijrkmn", strict=True)}
 MATHEMATICAL |= {sign: f"\\{name}" for sign, name in _GREEK.items()}
-MATHEMATICAL |= {"\N{MINUS SIGN}": "-", "\N{MICRO SIGN}": r"\mu", "·": r"\cdot", "±": r"\pm", "°": r"^\circ"}
+MATHEMATICAL |= {
+    "\N{MINUS SIGN}": "-",
+    "\N{MICRO SIGN}": r"\mu",
+    "·": r"\cdot",
+    "±": r"\pm",
+    "∓": r"\mp",
+    "°": r"^\circ",
+}
 MATHEMATICAL |= {"\N{MULTIPLICATION SIGN}": r"\times", "\N{PRIME}": "'", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
-MATHEMATICAL |= {"∥": r"\parallel", "⊥": r"\perp", "◇": r"\diamond", "√": r"\surd", "∞": r"\infty", "→": r"\to"}
+MATHEMATICAL |= {
+    "∓": r"\mp",
+    "∥": r"\parallel",
+    "⊥": r"\perp",
+    "◇": r"\diamond",
+    "√": r"\surd",
+    "∞": r"\infty",
+    "→": r"\to",
+}
 MATHEMATICAL |= {"∪": r"\cup", "∩": r"\cap", "∈": r"\in", "≈": r"\approx", "<": "<", ">": ">", "|": "|"}
 """Signs that stand in prose -> the same in mathematics, without dollar signs."""
 
 _WORDS = {"\N{EN DASH}": "--", "…": r"\dots{}", "\u202f": r"\,", "\u00a0": "~", "\u2009": r"\,"}
 _WORDS |= {"‘": "`", "’": "'", "“": "``", "”": "''", "\N{EM DASH}": "---"}
+_WORDS |= {chr(0x245F + number): rf"\textcircled{{{number}}}" for number in range(1, 21)}
 _LATIN = "\u017f"
 """The last of the letters that LaTeX reads as they are."""
 
@@ -49,8 +65,8 @@ def prose(text: str) -> str:
 def escaped(text: str) -> str:
     r"""The same of words without mathematics in them.
 
-    >>> escaped("q\u0307 and σᵣ")
-    '$\\dot{q}$ and $\\sigma _{r}$'
+    >>> escaped("q\u0307 and σᵣ"), escaped("② ∓b")
+    ('$\\dot{q}$ and $\\sigma _{r}$', '\\textcircled{2} $\\mp $b')
     """
     parts = _DOTTED.split(text)
     joined = "".join(rf"$\dot{{{part}}}$" if k % 2 else "".join(map(_sign, part)) for k, part in enumerate(parts))
