@@ -16,6 +16,7 @@ from assur.report.findings import Findings
 from assur.report.render import page_html
 from assur.report.report import SECTIONS, numbers_of, report_html, report_page, write_report
 from assur.report.sections.reach import AGAINST
+from assur.report.sections.summary import NUMBERS
 from assur.results.kinds import Scalar, Section, Table
 from assur.workspace.certified.proving import prove_box
 
@@ -256,3 +257,20 @@ def test_a_path_that_cannot_be_written_keeps_the_old_file(fourbar, tmp_path, mon
         write_report(fourbar, path, figures=False)
     assert path.read_text() == "old"
     assert sorted(item.name for item in tmp_path.iterdir()) == ["folder", "report.html"]
+
+
+@pytest.mark.browser
+def test_the_first_screen_has_the_numbers_and_what_is_proved(browser, html):
+    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    page.set_content(html)
+    tiles = page.locator("#in-brief .scalars > div")
+    assert tiles.count() == NUMBERS
+    assert page.locator("#in-brief").bounding_box()["y"] < 300
+    for name in ("real direct solutions", "workspace volume", "audit of the source"):
+        box = page.locator("#in-brief .facts dt", has_text=name).bounding_box()
+        assert box["y"] + box["height"] < 900
+    known = tiles.nth(1).locator("details")
+    assert not known.evaluate("part => part.open")
+    known.locator("summary").click()
+    assert "these and no other" in known.inner_text()
+    page.close()
