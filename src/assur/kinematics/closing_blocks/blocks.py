@@ -308,6 +308,12 @@ def _apart(first: str, second: str, screws: ScrewColumns) -> bool:
 
 def spin_rates(spin: Spin, screws: ScrewColumns) -> FloatArray:
     """Rates (N, c) of a spin, one for each column of `ScrewColumns`; NaN where the balls are in one place."""
+    if spin not in screws.spins:
+        screws.spins[spin] = _spin_rates(spin, screws)
+    return screws.spins[spin]
+
+
+def _spin_rates(spin: Spin, screws: ScrewColumns) -> FloatArray:
     record = screws.record
     line = screws.centre(spin.second) - screws.centre(spin.first)
     size = np.linalg.norm(line, axis=1, keepdims=True)

@@ -199,6 +199,11 @@ class ScrewColumns:
         return {}
 
     @cached_property
+    def spins(self) -> dict[object, FloatArray]:
+        """Spin -> its rates (N, c), of those that were asked for."""
+        return {}
+
+    @cached_property
     def shares(self) -> dict[object, FloatArray]:
         """Sign -> its values (N,) as shares, of those that were asked for."""
         return {}

@@ -187,9 +187,8 @@ def _ways(free: list[HingeTurn], root: str, rotation: FloatArray) -> dict[str, l
     """For each body, the directions by whose axes alone it hangs on the root, whose orientation is given."""
     both = [*free, *(turn.back for turn in free)]
     directions: list[FloatArray] = []
-    for turn in both:
-        axis = _upright(rotation @ turn.axis)
-        if turn.parent == root and not any(_along(axis, other) for other in directions):
+    for axis in (_upright(rotation @ turn.axis) for turn in both if turn.parent == root):
+        if not any(_along(axis, other) for other in directions):
             directions.append(axis)
     found: dict[str, list[Way]] = {}
     for axis in directions:
