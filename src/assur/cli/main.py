@@ -20,6 +20,9 @@ LINEAR_ALGEBRA = ("OPENBLAS_NUM_THREADS", "1")
 """Threads of the linear algebra, unless the user says otherwise: matrices of mechanisms are so small that several of
 them only wait for each other, which made a search of assemblies three times as long."""
 
+PLUGINS = ("PYDANTIC_DISABLE_PLUGINS", "__all__")
+"""None of what is installed besides changes how a file is read: to look for it takes 3 % of `check`."""
+
 OBJECTS = 50_000
 """Objects that are made before Python looks for cycles among them, 700 by default: modules and recorded programs are
 hundreds of thousands, none of them garbage, and looking at them takes 4 % of the first command on a file."""
@@ -31,6 +34,7 @@ def main(words: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # absent where a test took its place
     if words is None:  # a process of our own, before NumPy is loaded
         os.environ.setdefault(*LINEAR_ALGEBRA)
+        os.environ.setdefault(*PLUGINS)
         gc.set_threshold(OBJECTS)
         words = sys.argv[1:]
     debug, json = "--debug" in words, "--json" in words

@@ -3,8 +3,7 @@
 Only the form is checked here; whether names exist and numbers make sense is seen when the record is built.
 """
 
-from __future__ import annotations
-
+# annotations stand as they are: pydantic would evaluate each text again
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StrictBool
