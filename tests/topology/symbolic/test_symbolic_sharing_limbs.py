@@ -6,7 +6,8 @@ import random
 import pytest
 
 from assur.derived_topology import topology
-from assur.topology.notation import parse_chains
+from assur.synthesis.positions import CYCLE, SWAP, turned
+from assur.topology.notation import parse_chains, plain_text
 from assur.topology.routes import by_rules, told_point
 from assur.topology.screws.configurations import ImmobileError
 from assur.topology.symbolic.refusals import Refusal
@@ -56,13 +57,26 @@ def test_mechanisms_of_the_literature_by_both_routes(name):
     assert found.known.route == "both", found.known.refusal
 
 
+@pytest.mark.parametrize("name", FIVE)
+def test_the_rules_do_not_depend_on_the_order_of_limbs_or_on_the_names_of_axes(name):
+    limbs, numbers = FIVE[name]
+    for number, turn in enumerate((CYCLE, CYCLE @ CYCLE, SWAP @ CYCLE)):
+        chains = [turned(chain, turn) for chain in parse_chains(limbs)]
+        platform = _by_rules(chains[number:] + chains[:number])
+        assert not isinstance(platform, Refusal), [plain_text(chain) for chain in chains]
+        assert (platform.poc.t, platform.poc.r, platform.poc.dim) == numbers
+
+
 def _drawn(count):
     rng = random.Random(SEED)
     return [random_sharing_mechanism(rng) for _ in range(count)]
 
 
 def _platform(limbs):
-    chains = parse_chains(limbs)
+    return _by_rules(parse_chains(limbs))
+
+
+def _by_rules(chains):
     return by_rules(chains, still=False, held=False, at=told_point(chains, held=False)).platform
 
 
