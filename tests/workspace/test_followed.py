@@ -12,6 +12,7 @@ from scipy.spatial import KDTree
 import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.pose import pose_of
+from assur.workspace import border_pieces
 from assur.workspace.fields import closed_form_fields, sample
 from assur.workspace.followed import over_grid
 from assur.workspace.followed_field import continued_past, filled
@@ -345,3 +346,11 @@ def test_an_edge_of_a_mechanism_without_closed_form_is_where_solutions_end():
         len(mechanism.inverse([*(corner + 0.1 * np.array(way)), 0.0])) for way in ((-1, -1), (1, -1), (-1, 1))
     )
     assert max(beyond) < inside
+
+
+def test_a_border_whose_reasons_are_not_told_is_one_surface(monkeypatch):
+    """It is cut off at the corner then, and the region is inside that with an edge there."""
+    whole = workspace(stripped("fivebar"), box=CORNERED, resolution=5)
+    monkeypatch.setattr(border_pieces, "FOREMOST", np.inf)
+    cut_off = workspace(stripped("fivebar"), box=CORNERED, resolution=5)
+    assert 0.9 * whole.volume < cut_off.volume < 0.995 * whole.volume

@@ -82,8 +82,10 @@ class BorderPieces:
         reasons, normals, clear = self._directions
         senses = np.sign(np.sum(normals * way, axis=1))
         rows = np.flatnonzero(clear & (senses != 0.0))
+        if not len(rows):
+            return ()
         labels = _joined(places[rows], reasons[rows])
-        sizes = np.bincount(labels) if len(rows) else np.zeros(0, dtype=int)
+        sizes = np.bincount(labels)
         chosen = [k for k in np.argsort(-sizes, kind="stable")[:MOST] if sizes[k] > len(self.over.axes)]
         own = [rows[labels == k] for k in chosen]
         return tuple(BorderPiece(places[part], senses[part, None] * normals[part]) for part in own)
@@ -99,8 +101,10 @@ class BorderPieces:
             pose_change(over.record, poses, over.mode.poses(points + (axis[1] - axis[0]) * np.eye(len(over.axes))[k]))
             for k, axis in enumerate(over.axes)
         ]
-        left, sizes, right = np.linalg.svd(rates @ np.stack(changes, axis=-1), full_matrices=False)
-        clear = np.ones(len(sizes), dtype=bool) if sizes.shape[1] < 2 else sizes[:, 0] > FOREMOST * sizes[:, 1]
+        along = rates @ np.stack(changes, axis=-1)
+        known = np.all(np.isfinite(along), axis=(1, 2))
+        left, sizes, right = np.linalg.svd(np.where(known[:, None, None], along, 0.0), full_matrices=False)
+        clear = known & (sizes[:, 0] > (FOREMOST * sizes[:, 1] if sizes.shape[1] > 1 else 0.0))
         return left[:, :, 0], right[:, 0], clear
 
     @cached_property
