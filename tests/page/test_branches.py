@@ -105,7 +105,12 @@ def test_modes_are_rows_of_signs():
     found = modes(load("zeng2019"))
     assert len(found["working"]["all"]) == 2 ** len(found["working"]["names"]) == 32
     assert found["working"]["default"] == "++-++"
-    assert modes(load("gough_stewart"))["working"] == {"names": [], "all": [[]], "default": ""}
+    assert [text.partition(" = ")[0].partition(" is ")[0] for text in found["working"]["said"]] == [
+        f"{name} ({name})" for name in found["working"]["names"]
+    ]
+    platform = modes(load("gough_stewart"))["working"]
+    assert (platform["names"], platform["all"], platform["default"]) == ([], [[]], "")
+    assert platform["said"][0] == "leg1 (s1) is +: B1 lies ahead of A1 along P1"
 
 
 def test_of_many_working_modes_the_first_have_their_assembly_modes_and_the_others_say_that_they_stand_alone(

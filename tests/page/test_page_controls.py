@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from assur.cli.pose_table import table, timed_poses
+from assur.kinematics.naming import described_signs
 from assur.machine.dynamics.prescribed_motion import sampled
 from assur.mechanism import load
 from catalogue import each
@@ -213,6 +214,59 @@ def test_sliders_change_dimensions_and_a_link_keeps_them(opened):
     tab.keyboard.press("r")
     assert not tab.evaluate("window.assur.resized")
     tab.get_by_text("Dimensions", exact=True).first.click()
+
+
+def test_a_stop_is_said_once_and_modes_say_what_their_signs_mean(opened):
+    tab = opened("three_upu")
+    tab.evaluate("window.assur.toPose([0, 0, 1000])")
+    said = [text for text in tab.locator(".slider .why").all_text_contents() if text]
+    assert len(said) == 1
+    assert tab.locator(".slider.stopped").count() == 1
+    tab.wait_for_function("() => Number(getComputedStyle(document.querySelector('.status')).opacity) < 0.1")
+    assert tab.locator(".status").text_content() == said[0]
+    tab.get_by_role("tab", name="Show").click()  # where no slider says it
+    tab.wait_for_function("() => Number(getComputedStyle(document.querySelector('.status')).opacity) > 0.9")
+    titles = tab.locator("[aria-label='Working modes'] button").evaluate_all("(all) => all.map((it) => it.title)")
+    meanings = [sign.said for sign in described_signs(load("three_upu"), "inverse")]
+    assert all(title.split("\n")[1:] == meanings for title in titles)
+    assert meanings
+
+
+def test_a_lost_context_comes_back(opened):
+    tab = opened("fivebar")
+    lost = """() => {
+      const canvas = document.querySelector("canvas");
+      const own = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+      window.plainLog = console.log;
+      console.log = () => {};  // three.js says that it was lost, and that it is back
+      const back = new Promise((done) => canvas.addEventListener("webglcontextrestored", () =>
+        requestAnimationFrame(() => requestAnimationFrame(() => done(!canvas.getContext("webgl2").isContextLost())))));
+      own.loseContext();
+      setTimeout(() => own.restoreContext(), 50);
+      return back;
+    }"""
+    assert tab.evaluate(lost)
+    assert tab.evaluate("window.assur.toPose([10, 210]).reason") is None
+    tab.evaluate("() => {console.log = window.plainLog}")
+
+
+def test_slow_pictures_leave_shadows_out(opened, address):
+    """Of a clock that goes 100 ms on from picture to picture."""
+    tab = opened("fivebar", at=address("fivebar"))
+    slow = """async (late) => {
+      const plain = performance.now.bind(performance);
+      let gone = 0;
+      performance.now = () => plain() + gone;
+      for (let k = 0; k < 16; k++) {
+        window.assur.toPose([k % 2, 210]);
+        gone += late;
+        await new Promise(requestAnimationFrame);
+      }
+      performance.now = () => plain() + gone;
+      return document.querySelector("canvas").dataset.shadows ?? "";
+    }"""
+    assert tab.evaluate(slow, 1000) == ""  # each stands still before the next
+    assert tab.evaluate(slow, 100) == "false"
 
 
 def test_a_course_that_cannot_be_followed_says_why(opened):

@@ -92,10 +92,10 @@ class Slider {
     this.number.value = shown.toFixed(this.places).replace(/^-(?=[0.]*$)/, "");
   }
 
-  /** Red with a reason, or as usual with none. */
-  stop(text) {
-    this.row.classList.toggle("stopped", Boolean(text));
-    this.range.setAttribute("aria-invalid", String(Boolean(text)));
+  /** Red with a reason, or with one that another slider says; as usual with none. */
+  stop(text, red = false) {
+    this.row.classList.toggle("stopped", Boolean(text || red));
+    this.range.setAttribute("aria-invalid", String(Boolean(text || red)));
     if (this.why.textContent !== text) this.why.textContent = text;
   }
 }
@@ -151,7 +151,7 @@ export function controls(mechanism) {
     const { reason } = mechanism;
     const blamed = reason && inputs[scene.inputs.findIndex((item) => item.name === reason.joint)];
     for (const slider of [...inputs, ...pose, ...sizes])
-      slider.stop(reason && (slider === last || slider === blamed) ? minus(reason.text) : "");
+      slider.stop(reason && slider === (last ?? blamed) ? minus(reason.text) : "", reason && slider === blamed);
   };
   mechanism.listen((what) => {
     if (what === "mode") last = null;

@@ -96,8 +96,7 @@ const checks = {
 };
 const view = (name, ...angles) =>
   el("button", { type: "button", class: "plain", onclick: () => stage.look(angles) }, name);
-const sides = [view("3-D", ...SPACE), view("Front", -90, 0), view("Side", 0, 0), view("Top", -90, 90)];
-const views = el("div", { class: "modes" }, ...sides);
+const views = [view("3-D", ...SPACE), view("Front", -90, 0), view("Side", 0, 0), view("Top", -90, 90)];
 
 const { element: status, say } = statusLine(mechanism);
 const save = async () => {
@@ -118,12 +117,11 @@ const reset = () => {
   mechanism.reset();
   stage.look();
 };
-const calls = { r: reset, f: () => stage.fit(), s: save, l: share, "?": () => dialog.showModal() };
+const calls = { r: reset, f: () => stage.look(stage.view.numbers()), s: save, l: share, "?": () => dialog.showModal() };
 
-const foot = el("div", { class: "foot" }, readout(mechanism), tools(calls));
-place.append(el("div", { class: "over" }, heading(scene), status, foot));
+place.append(el("div", { class: "over" }, heading(scene), status, el("div", { class: "foot" }, readout(mechanism), tools(calls))));
 const movers = { sliders: controls(mechanism), modes: modeLists(mechanism, ghosts), player, recorder: recorder(mechanism) };
-const side = panel({ scene, ...movers, looks: { checks: Object.values(checks), views }, layers });
+const side = panel({ scene, ...movers, looks: { checks: Object.values(checks), views: el("div", { class: "modes" }, ...views) }, layers });
 app.append(side.element, dialog);
 stage.resize();
 stage.look();

@@ -9,26 +9,28 @@ export function named({ label, home }) {
   return home && label !== "home" ? `${name} (home)` : name;
 }
 
-/** The name, and what is not as usual. */
-function told(item, gone = false) {
+/** The name, what is not as usual, and what its signs mean. @param {string[]} said */
+function told(item, said, gone = false) {
   const unusual = gone ? "not at these inputs" : item.status === "regular" ? "" : item.status;
-  return unusual ? `${named(item)}: ${unusual}` : named(item);
+  return [unusual ? `${named(item)}: ${unusual}` : named(item), ...said].join("\n");
 }
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
 export function modeLists(mechanism, ghosts) {
-  const button = (item, choose, given, ...before) => {
-    const own = { type: "button", class: "mode", "aria-pressed": "false", title: told(item), onclick: choose, ...given };
+  const said = mechanism.scene.modes;
+  const button = (item, title, choose, given, ...before) => {
+    const own = { type: "button", class: "mode", "aria-pressed": "false", title, onclick: choose, ...given };
     return el("button", own, ...before, named(item));
   };
   const ghost = (item, k) => {
     const [light, dim] = [() => ghosts.light(k), () => ghosts.light(-1)];
     const given = { onpointerenter: light, onpointerleave: dim, onfocus: light, onblur: dim };
-    return button(item, () => mechanism.choose(k), given, el("i", { style: `--colour:${COLOURS[k % COLOURS.length]}` }));
+    const title = told(item, said.assembly.said);
+    return button(item, title, () => mechanism.choose(k), given, el("i", { style: `--colour:${COLOURS[k % COLOURS.length]}` }));
   };
   const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
   const [assembly, working] = [group("Assembly modes"), group("Working modes")];
-  working.append(...mechanism.working.map((item, k) => button(item, () => mechanism.work(k))));
+  working.append(...mechanism.working.map((item, k) => button(item, told(item, said.working.said), () => mechanism.work(k))));
   const note = el("p", { class: "quiet", hidden: true }, "It stands in none of these, which are those of home’s pose.");
   const pressed = (list, current) =>
     [...list.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
@@ -55,7 +57,7 @@ export function modeLists(mechanism, ghosts) {
     [...assembly.children].forEach((node, k) => {
       const gone = k !== mechanism.branch && !mechanism.assembly[k].reached;
       node.classList.toggle("gone", gone);
-      node.title = told(listed[k], gone);
+      node.title = told(listed[k], said.assembly.said, gone);
     });
   mechanism.listen(show);
   show();

@@ -22,6 +22,8 @@ export class Player {
     this.note = el("p", { class: "why", role: "status" });
     this.courses = coursesOf(mechanism);
     this.choice.append(...this.courses.map((_, k) => el("option", { value: k })));
+    const put = (index) => ((this.choice.value = index), this.fresh());
+    this.course = { read: () => Number(this.choice.value), put }; // for a link
     this.named();
     const time = el("div", { class: "time" }, this.button, this.bar);
     this.element = el("div", { class: "player" }, this.choice, time, this.note);
@@ -30,15 +32,6 @@ export class Player {
     mechanism.listen(() => {
       if (!this.own) this.fresh(); // moved by hand: the next course starts from there
     });
-  }
-
-  /** Which course is chosen, for a link. */
-  get course() {
-    const put = (index) => {
-      this.choice.value = index;
-      this.fresh();
-    };
-    return { read: () => Number(this.choice.value), put };
   }
 
   /** Names every course by its size: that in which it is followed, else the largest that is tried. */

@@ -73,8 +73,10 @@ export function readout(mechanism) {
     let over = false;
     while (!over && performance.now() - start < PORTION) over = search.next().done;
     const left = patience - (performance.now() - start);
-    if (over || left < 0) rows.distance.textContent = distanceSaid(found, over, mechanism.model.length, scene.unit);
-    else timer = setTimeout(() => look(found, search, left), 0);
+    const done = over || left < 0;
+    const words = distanceSaid(found, over, mechanism.model.length, scene.unit);
+    if (done || found.amount < Infinity) rows.distance.textContent = words; // at once, then better
+    if (!done) timer = setTimeout(() => look(found, search, left), 0);
   };
   const show = () => {
     const state = mechanism.state();

@@ -22,8 +22,9 @@ export function recorder(mechanism) {
   const note = el("span", { class: "quiet", role: "status" });
   const plain = (call, text) => el("button", { type: "button", class: "plain", onclick: call }, text);
   const button = plain(() => turn(!on), "Record");
-  const text = () => new Blob([table(mechanism.scene, moments)], { type: "text/csv" });
-  const download = plain(() => saved(`${mechanism.scene.name}-motion.csv`, text()), "Save as CSV");
+  const { scene } = mechanism;
+  const file = () => saved(`${scene.name}-motion.csv`, new Blob([table(scene, moments)], { type: "text/csv" }));
+  const download = plain(file, "Save as CSV");
   const take = () => {
     const t = moments.length ? (performance.now() - start) / 1000 : 0;
     if (moments.length && t <= moments.at(-1)[0]) moments.pop(); // two in one tick of the clock

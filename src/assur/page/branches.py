@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_names
-from assur.kinematics.naming import mode_names
+from assur.kinematics.naming import described_signs, mode_names
 from assur.kinematics.postures import Posture, postures, unwound
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
@@ -54,15 +54,19 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
 
 
 def modes(record: MechanismRecord) -> dict[str, Any]:
-    """Names of the signs of working and assembly modes, and every row of signs of a working mode."""
+    """Names of the signs of working and assembly modes, what + means of each, every row of signs of a working mode."""
     rows = [list(mode_signs(record, "inverse", text)) for text in all_modes(record, "inverse")]
     return {
         "working": {
             "names": list(sign_names(record, "inverse")),
             "all": rows if sign_names(record, "inverse") else [[]],
             "default": record.modes.default_working,
+            "said": [sign.said for sign in described_signs(record, "inverse")],
         },
-        "assembly": {"names": list(sign_names(record, "direct"))},
+        "assembly": {
+            "names": list(sign_names(record, "direct")),
+            "said": [sign.said for sign in described_signs(record, "direct")],
+        },
     }
 
 

@@ -8,6 +8,8 @@ import { drawn } from "./sprites.js";
 /** Azimuth and elevation of the usual view, in degrees. */
 export const SPACE = [-52, 24];
 
+const [LATE, STILL, MANY] = [70, 400, 12]; // milliseconds from picture to picture; so many late ones leave shadows out
+
 const LOOKS = {
   light: { top: "#ffffff", bottom: "#dfe6ee", grid: "rgba(60,80,100,.30)", shadow: 0.24, sky: 2.0, sun: 2.0 },
   dark: { top: "#232a33", bottom: "#0e1217", grid: "rgba(170,195,220,.22)", shadow: 0.55, sky: 1.3, sun: 1.8 },
@@ -22,6 +24,7 @@ export class Stage {
     // the sun stands; only what moves changes shadows
     Object.assign(this.renderer.shadowMap, { enabled: true, type: THREE.PCFShadowMap, autoUpdate: false });
     this.canvas = this.renderer.domElement;
+    this.canvas.addEventListener("webglcontextrestored", () => this.moved());
     element.prepend(this.canvas);
     this.scene = new THREE.Scene();
     this.root = new THREE.Group(); // the mechanism in its own unit, scaled so that it is about 1 large
@@ -87,11 +90,6 @@ export class Stage {
   /** Looks at everything that is shown, from an azimuth and an elevation in degrees. */
   look([azimuth, elevation] = SPACE) {
     this.view.look(this.outlines(this.objects), azimuth, elevation);
-  }
-
-  /** The same from the side from which it is seen now. */
-  fit() {
-    this.look(this.view.numbers());
   }
 
   outlines(objects, moving = false) {
@@ -173,6 +171,11 @@ export class Stage {
   draw() {
     for (const call of this.before) call();
     this.renderer.render(this.scene, this.view.camera);
+    const now = performance.now();
+    const between = now - (this.last ?? now);
+    this.last = now;
+    if (between < STILL) this.late = between > LATE ? (this.late ?? 0) + 1 : 0; // one after the other
+    if (this.late > MANY) this.canvas.dataset.shadows = this.sun.castShadow = false; // what moves is worth more
   }
 
   /** The picture as PNG. @returns {Promise<Blob>} */
