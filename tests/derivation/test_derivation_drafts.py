@@ -58,6 +58,7 @@ UNLIKE = {
     "an oblique axis": ["C[x] R[x] R[x]", "C[z] R[z] R[z]", "C[1,1,0] R[1,1,0] R[1,1,0]"],
     "a slider after a crank": ["R[y] R[y] P[z]", "P[x] R[x] R[x] R[x]", "P[z] R[z] R[z] R[z]"],
     "limbs at angles that are parameters": ["P[1,0,0] P(4S)[y]", "P[-1,2,0] P(4S)[2,1,0]", "P[-1,-2,0] P(4S)[-2,1,0]"],
+    "a four-bar in space": ["R[z] S S", "R[y]"],
     "rods on two rails that are one line": ["P[x] P(2US)[y]", "P[x] P(2US)[y]", "P[x] P(2US)[z]"],
     "rods in parallelograms that stand on edge": ["P[x] P(2US)[z]", "P[x] P(2US)[y]", "P[y] P(2US)[z]"],
     "rails that are oblique": ["P[1,0,1] P(4S)[y]", "P[y] P(4S)[x]", "P[z] P(4S)[y]"],

@@ -138,9 +138,10 @@ def turned_by(direct: AnalyticSolution, name: str) -> Pair:
     """Cosine and sine of an angle of the pose, of a platform that turns about Z. Errors: NotDerivedError."""
     link = direct.symbols.record.platform.link
     own = direct.placed.links[link]
-    if name != "phi" or own.axis is None or tuple(own.axis) != (0, 0, 1) or own.rod is not None:
-        raise NotDerivedError(f"the platform's {name}")
-    for direction in direct.loops.directions:
+    upright = own.axis is not None and tuple(own.axis) == (0, 0, 1) and own.rod is None
+    for direction in direct.loops.directions if name == "phi" and upright else ():
         if link in direction.links:
             return direction.unknowns[0], direction.unknowns[1]
-    raise NotDerivedError(f"the platform's {name}")
+    raise NotDerivedError(
+        f"{name} of the pose is written of a platform that turns about Z alone, and {link} turns otherwise"
+    )
