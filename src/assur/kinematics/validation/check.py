@@ -15,6 +15,7 @@ from assur.kinematics.limits import Limit, limits
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.rates.restraint import WELL, restraint
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic, unwrapped
 from assur.kinematics.validation.claims import Claims, axis_name, claims
@@ -84,8 +85,8 @@ def check(record: MechanismRecord) -> None:
 
 def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
     """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
-    against the others, a home of many turns, one that is singular, one from which the loops close only far off, a
-    workspace box without home in it.
+    against the others, a home of many turns, one that is singular or holds its platform badly, one from which the loops
+    close only far off, a workspace box without home in it.
 
     >>> from assur.model.registry import load_record
     >>> doubts(load_record("zeng2019"))
@@ -184,10 +185,23 @@ def _singular(record: MechanismRecord) -> list[Problem]:
     """A home that is singular where the mechanism in general is not."""
     status = Status(int(classify_at(record, home_values(record))))
     if status <= Status.near_singular or self_motion_dimension(record):
-        return []
+        return _badly_held(record) if status <= Status.near_singular else []
     hint = "paths from home that hold the inputs, or the pose, may not begin there: is there a regular one nearby?"
     path = table_place(record, "home")
     return [problem(record, path, f"home is singular: {status.name}", "it is unusual, but may be", hint)]
+
+
+def _badly_held(record: MechanismRecord) -> list[Problem]:
+    """A home at which what holds the platform is nearly singular, in its constraints or with its inputs held."""
+    held = restraint(record, home_values(record))
+    if held.condition <= WELL or self_motion_dimension(record):
+        return []
+    turn, move = held.weakest[:3, None], held.weakest[3:, None]
+    turns = np.linalg.norm(turn) > np.linalg.norm(move)
+    most = f"turns about {axis_name(turn)}" if turns else f"moves along {axis_name(move)}"
+    text = f"with inputs held, the platform nearly {most}: condition number {held.condition:.0f} of what holds it"
+    hint = "are axes of several legs parallel to one plane, or their forces to one line? turn some, or tilt home"
+    return [problem(record, table_place(record, "home"), text, f"it is unusual, but may be: up to {WELL:g}", hint)]
 
 
 def _orientation(record: MechanismRecord, claims: Claims) -> list[Problem]:

@@ -23,7 +23,7 @@ from assur.results.plain_text import count as plural
 from assur.synthesis.drafting.copying import next_steps
 from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.facts import differences
-from assur.synthesis.drafting.homes import away, clearance, home_table
+from assur.synthesis.drafting.homes import away, clearance, holding, home_table
 from assur.synthesis.drafting.knees import knee_formula, turned_round
 from assur.synthesis.drafting.layout import HEIGHT, DraftLayout
 from assur.synthesis.drafting.lengths import by_lengths
@@ -60,13 +60,15 @@ ROOM, TILT = 100, 30
 class Attempt:
     """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes.
 
-    Of an `unchecked` one it is not known whether the file has faults. `moved`: home is not as `drawn`.
+    `held` is the condition number of what holds its platform; `moved`: home is not as `drawn`. Of an `unchecked` one it
+    is not known whether the file has faults.
     """
 
     text: str
     record: MechanismRecord | None
     fault: str = ""
     clearance: float = 0.0
+    held: float = 1.0
     unreadable: bool = False
     unchecked: bool = False
     drawn: Draft | None = None
@@ -127,7 +129,7 @@ class DraftQuestion:
             wrong = "" if unchecked else _fault(record)
             if wrong:
                 return Attempt("", None, wrong)
-            return Attempt(document(drawn, chosen), record, clearance=clearance(record), unchecked=unchecked)
+            return Attempt(document(drawn, chosen), record, "", clearance(record), holding(record), unchecked=unchecked)
         except AssurError as error:
             return Attempt("", None, error.message, unreadable=True)
 

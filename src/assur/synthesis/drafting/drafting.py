@@ -10,6 +10,7 @@ from pathlib import Path
 from assur.errors import UsageError
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.naming import described_signs
+from assur.kinematics.rates.restraint import WELL
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
@@ -104,21 +105,21 @@ def drafted(
     for moved, layouts in itertools.product((False, True), LAYOUTS):
         sound: list[Attempt] = []
         for number, layout in enumerate(layouts):
-            if number >= ENOUGH and all(made.clearance < NOWHERE for made in sound):
+            if number >= ENOUGH and all(made.clearance < NOWHERE or made.held > WELL for made in sound):
                 break
             made = asked.attempt(layout, moved=moved, unchecked=bool(sound))  # which of many is best comes first
             if made.fault or made.record is None:
                 reasons[made.fault] = None
                 continue
-            if made.clearance >= GOOD and _lengths(made) >= enough:
+            if made.clearance >= GOOD and made.held <= WELL and _lengths(made) >= enough:
                 if asked.agrees(made, reasons):
                     return _drafted(asked.tied(made), topology)
                 continue
             sound.append(made)
         for made in _best_first(sound, enough):
-            if made.clearance >= CLEAR and asked.agrees(made, reasons):
+            if _is_clear(made) and asked.agrees(made, reasons):
                 return _drafted(asked.tied(made), topology)
-        singular += [made for made in sound if made.clearance < CLEAR]
+        singular += [made for made in sound if not _is_clear(made)]
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
             return _drafted(asked.tied(made), topology)
@@ -152,9 +153,19 @@ def _with_names(made: Attempt) -> str:
     return "\n".join([made.text.rstrip(), "", head, *lines, ""]) if lines else made.text
 
 
+def _is_clear(made: Attempt) -> bool:
+    """Whether home is far enough from singular, in its constraints too."""
+    return made.clearance >= CLEAR and made.held <= WELL
+
+
 def _best_first(made: Sequence[Attempt], enough: int) -> list[Attempt]:
     """Attempts, first by lengths in their pose as far as there are enough, then by how far home is from singular."""
-    return sorted(made, key=lambda attempt: (-min(_lengths(attempt), enough), -min(attempt.clearance, GOOD)))
+
+    def order(attempt: Attempt) -> tuple[float, ...]:
+        far = attempt.clearance
+        return (-min(_lengths(attempt), enough), -min(far, CLEAR), max(attempt.held, WELL), -min(far, GOOD))
+
+    return sorted(made, key=order)
 
 
 def _lengths(made: Attempt) -> int:

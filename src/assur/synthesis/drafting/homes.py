@@ -11,6 +11,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import motions
+from assur.kinematics.rates.restraint import WELL, restraint
 from assur.model.mechanism import MechanismRecord
 from assur.performance.indices import indices_at
 
@@ -22,8 +23,8 @@ CLEAR = 0.02
 BENT = 0.1
 """Least measure with the platform locked (a sine) of a home in which legs are far from the end of their reach."""
 
-WELL = 50.0
-"""A larger condition number at home is said."""
+CONDITION = 50.0
+"""A larger condition number of the Jacobian at home is said."""
 
 AWAY = np.array([30.0, 20.0, 15.0, 0.0, 0.0, 0.0])
 STEP = 0.2
@@ -70,6 +71,11 @@ def clearance(record: MechanismRecord) -> float:
     return min(float(measure) for measure in motion.measures.values())
 
 
+def holding(record: MechanismRecord) -> float:
+    """The condition number of what holds the platform at home while inputs rest."""
+    return restraint(record, home_values(record)).condition
+
+
 def remarks(record: MechanismRecord) -> tuple[str, ...]:
     """What a reader should know of home: singular, at the end of a leg's reach, badly conditioned; else nothing."""
     if clearance(record) < CLEAR:
@@ -79,6 +85,11 @@ def remarks(record: MechanismRecord) -> tuple[str, ...]:
     if float(instantaneous(record, home).measures["input"]) < BENT:
         said.append("home is near the end of a leg's reach in every layout that was tried: change the dimensions")
     condition = float(indices_at(record, home).condition_number)
-    if condition > WELL:
+    if condition > CONDITION:
         said.append(f"the condition number at home is {condition:.0f}, which is large: change the dimensions")
+    elif (held := holding(record)) > WELL:
+        said.append(
+            f"home is near a constraint singularity in every layout that was tried, {held:.0f} the condition number "
+            "of what holds the platform: turn axes of some limbs, or change the dimensions"
+        )
     return tuple(said)
