@@ -62,6 +62,8 @@ def _data(value: Any) -> dict[str, Any]:
     if isinstance(value, Image):
         picture = base64.b64encode(value.data).decode()
         return {"image/png": picture, "text/plain": ["<IPython.core.display.Image object>"]}
+    if hasattr(value, "_repr_html_"):
+        return {"text/html": value._repr_html_(), "text/plain": str(value).splitlines(True)}
     return {"text/plain": repr(value).splitlines(True)}
 
 
@@ -87,6 +89,8 @@ def _shown(output: Output) -> str:
     data = output.get("data", {})
     if "image/png" in data:
         return f"![What the cell shows](data:image/png;base64,{data['image/png']})"
+    if "text/html" in data:
+        return "".join(data["text/html"])
     text = "".join(output.get("text", data.get("text/plain", ""))).rstrip("\n")
     return f"```text\n{text}\n```"
 

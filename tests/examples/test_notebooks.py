@@ -54,6 +54,21 @@ def test_a_cell_that_shows_something_else_is_seen(runner):
     assert words(runner.run({"cells": [cell]})[0]) == [["1\n"], ["2"]]
 
 
+def test_an_answer_is_shown_as_its_table(runner):
+    class Shown:
+        def _repr_html_(self):
+            return "<table></table>"
+
+        def __str__(self):
+            return "a table"
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("builtins.shown", Shown, raising=False)
+        (outputs,) = runner.run({"cells": [{"cell_type": "code", "source": ["shown()"]}]})
+    assert words([*outputs]) == [["a table"]]
+    assert runner._shown(outputs[0]) == "<table></table>"
+
+
 def test_a_cell_that_fails_fails(runner):
     with pytest.raises(ZeroDivisionError):
         runner.run({"cells": [{"cell_type": "code", "source": ["1 / 0"]}]})
