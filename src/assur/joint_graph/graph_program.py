@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import groupby
-from types import CodeType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +19,6 @@ from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.dual import Dual
 from assur.numerics.recording.straight_line import StraightLine
-from assur.numerics.recording.tape import Tape
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -31,19 +29,17 @@ class GraphProgram:
     """Numbers of a configuration as a program of its state.
 
     Attributes:
-        tape: varying numbers are of the state, rates of ball joints, others that are given; uniform ones are those that
-            are the same everywhere, then dimensions.
+        line: of a tape whose varying numbers are of the state, rates of ball joints, others that are given; uniform
+            ones are those that are the same everywhere, then dimensions.
         places: of the varying numbers among all these.
         names: of all outputs, in their order.
         constants: outputs that are the same at every configuration of every mechanism of the structure.
-        code: the tape's lines, as `assur.numerics.recording.straight_line.compiled`.
     """
 
-    tape: Tape
+    line: StraightLine
     places: tuple[int, ...]
     names: tuple[str, ...]
     constants: Mapping[str, float]
-    code: CodeType
 
     def __call__(
         self,
@@ -58,7 +54,7 @@ class GraphProgram:
         """
         answer = np.empty((len(self.names), len(values)))
         numbers = self._varying(record, np.ascontiguousarray(values.T), given)
-        self.straight_line.fill(answer, self._rows, numbers, [*same, *dimensions(record)])
+        self.line.fill(answer, self._rows, numbers, [*same, *dimensions(record)])
         answer[self._constant_rows] = self._constant_values[:, None]
         return answer
 
@@ -73,7 +69,7 @@ class GraphProgram:
             state[place] if place < len(state) else np.full(state.shape[1], unit[place - len(state)], state.dtype)
             for place in self.places
         ]
-        self.straight_line.fill(answer, self._rows, np.array(numbers), dimensions(record))
+        self.line.fill(answer, self._rows, np.array(numbers), dimensions(record))
         answer[self._constant_rows] = self._constant_values[:, None]
         return answer
 
@@ -91,7 +87,7 @@ class GraphProgram:
         moving = changes_of(record, columns, rates.T)
         own = [row for row, place in enumerate(self.places) if place < len(moving)]
         changes[own] = moving[[self.places[row] for row in own]]
-        outputs = self.tape.evaluate(list(map(Dual, numbers, changes)), dimensions(record))
+        outputs = self.line.tape.evaluate(list(map(Dual, numbers, changes)), dimensions(record))
         answer = np.zeros((len(self.names), len(values)))
         for row in self._rows:
             number = outputs[self.names[row]]
@@ -136,11 +132,6 @@ class GraphProgram:
             kind: np.array([name.partition(" ")[2].split(",") for name in self.names[rows]], dtype=np.intp).T
             for kind, rows in kinds.items()
         }
-
-    @cached_property
-    def straight_line(self) -> StraightLine:
-        """The program's code."""
-        return StraightLine(self.tape, self.code)
 
     @cached_property
     def _rows(self) -> list[int]:

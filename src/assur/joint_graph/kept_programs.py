@@ -18,6 +18,8 @@ from typing import Any
 
 from assur.cache import keep, own_content
 from assur.joint_graph.graph_program import GraphProgram
+from assur.numerics.recording.levels import Levels
+from assur.numerics.recording.straight_line import StraightLine
 from assur.numerics.recording.tape import Operation, Tape
 from assur.version import VERSION
 
@@ -82,13 +84,14 @@ def _sources(folder: str) -> list[tuple[str, int, int]]:
 
 
 def _data(program: GraphProgram) -> tuple[Any, ...]:
-    tape = program.tape
+    line, tape = program.line, program.line.tape
     operations = [tuple(operation) for operation in tape.operations]
     parts = operations, tape.varying, tape.uniform, dict(tape.outputs)
-    return parts, program.places, program.names, dict(program.constants), program.code
+    by_levels = line.levels.size, line.levels.steps, line.levels.numbers, line.levels.outputs
+    return parts, by_levels, line.code, program.places, program.names, dict(program.constants)
 
 
 def _program(data: tuple[Any, ...]) -> GraphProgram:
-    (operations, varying, uniform, outputs), places, names, constants, code = data
+    (operations, varying, uniform, outputs), by_levels, code, places, names, constants = data
     tape = Tape(tuple(map(Operation._make, operations)), varying, uniform, outputs)
-    return GraphProgram(tape, places, names, constants, code)
+    return GraphProgram(StraightLine(tape, Levels(*by_levels), code), places, names, constants)

@@ -16,7 +16,7 @@ from assur.joint_graph.kept_programs import kept_program
 from assur.joint_graph.state import state_names
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.recording.straight_line import compiled
+from assur.numerics.recording.straight_line import straight_line
 from assur.numerics.recording.tape import Recorded, Recorder, pruned, without_unused
 from assur.numerics.vectors import Matrix
 
@@ -62,12 +62,12 @@ def _structure(record: MechanismRecord) -> _Structure:
 @lru_cache(maxsize=256)
 def part(whole: GraphProgram, kind: str) -> GraphProgram:
     """The program of the outputs of one kind alone."""
-    names = whole.names[whole.rows(kind)]
+    names, tape = whole.names[whole.rows(kind)], whole.line.tape
     constants = {name: whole.constants[name] for name in names if name in whole.constants}
-    outputs = {name: whole.tape.outputs[name] for name in names if name not in constants}
-    fewer = pruned(whole.tape.operations, whole.tape.varying, whole.tape.uniform, outputs)
-    tape, places = without_unused(fewer)
-    return GraphProgram(tape, tuple(whole.places[place] for place in places), names, constants, compiled(tape))
+    outputs = {name: tape.outputs[name] for name in names if name not in constants}
+    fewer = pruned(tape.operations, tape.varying, tape.uniform, outputs)
+    own, places = without_unused(fewer)
+    return GraphProgram(straight_line(own), tuple(whole.places[place] for place in places), names, constants)
 
 
 class _Structure:
@@ -111,7 +111,7 @@ class _Structure:
         constants = {name: float(value) for name, value in outputs.items() if not isinstance(value, Recorded)}
         tape = recorder.tape({name: value for name, value in outputs.items() if name not in constants})
         fewer, places = without_unused(tape)
-        return GraphProgram(fewer, places, tuple(outputs), constants, compiled(fewer))
+        return GraphProgram(straight_line(fewer), places, tuple(outputs), constants)
 
 
 def _matrix(numbers: Iterator[Recorded]) -> Matrix:

@@ -27,11 +27,11 @@ def configuration(record: MechanismRecord) -> str:
     """
     found = program(general(record), configuration_numbers)
     starts = _starts(record)
-    targets = {name: [f"n[{_place(name, starts)}]"] for name in found.tape.outputs}
+    targets = {name: [f"n[{_place(name, starts)}]"] for name in found.line.tape.outputs}
     constants = (f"n[{_place(name, starts)}]={number_text(value)};" for name, value in found.constants.items() if value)
     varying = [f"s[{place}]" for place in found.places]
-    uniform = [f"d[{k}]" for k in range(len(found.tape.uniform))]
-    body = "\n".join([*constants, *javascript(found.tape, varying, uniform, targets)])
+    uniform = [f"d[{k}]" for k in range(len(found.line.tape.uniform))]
+    body = "\n".join([*constants, *javascript(found.line.tape, varying, uniform, targets)])
     return f"function (s, d, n) {{\n{body}\n}}"
 
 

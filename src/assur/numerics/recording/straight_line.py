@@ -1,9 +1,9 @@
-"""Tapes as straight-line Python of ours: arrays go through NumPy, a few elements through Python's own floats.
+"""Tapes as programs: arrays go through NumPy, short ones level by level, a few elements through Python's own floats.
 
 Where NumPy has worked for as long as machine code takes to load, that goes on: a few elements at a time stay in the
 cache, and the bits are the same.
 
-The lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them.
+Python's lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.recording.levels import Levels, levels
 from assur.numerics.recording.registers import assignments
 from assur.numerics.recording.tape import Tape
 
@@ -28,8 +29,10 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
-FEW = 12
-"""So many elements take less time one by one as Python's floats than as arrays, by some 40 against 500 ns a line."""
+FEW = 40
+"""Operations on Python's floats that take as long as one on arrays, however many rows that has: some 30 ns each."""
+WIDE = 256
+"""Elements from which rows are so long that NumPy is better called for one operation after the other."""
 AT_ONCE = 256
 """Elements that machine code works on at a time."""
 REPAID = 1_000_000_000
@@ -45,17 +48,22 @@ TEXT = {
 class StraightLine:
     """A tape without comparisons, ready to be called.
 
+    Attributes:
+        tape: the tape.
+        levels: its operations on arrays.
+        code: its lines as Python's own code, where these are the faster way for one element; else made when needed.
+
     >>> from assur.numerics.recording.tape import Recorder
     >>> recorder = Recorder()
     >>> x, p = recorder.varying("x"), recorder.uniform("p")
-    >>> tape = recorder.tape({"y": x * p, "z": recorder.sqrt(x)})
-    >>> StraightLine(tape, compiled(tape))(np.array([[4.0, 9.0]]), [0.5])
+    >>> straight_line(recorder.tape({"y": x * p, "z": recorder.sqrt(x)}))(np.array([[4.0, 9.0]]), [0.5])
     array([[2. , 4.5],
            [2. , 3. ]])
     """
 
     tape: Tape
-    code: CodeType
+    levels: Levels
+    code: CodeType | None
 
     def __call__(self, varying: FloatArray, uniform: Sequence[float]) -> FloatArray:
         """Outputs (m, N) in the tape's order, of numbers (k, N) and (u,)."""
@@ -65,10 +73,15 @@ class StraightLine:
 
     def fill(self, answer: NDArray[Any], rows: Sequence[int], varying: NDArray[Any], uniform: Sequence[float]) -> None:
         """The same, each output into its row of a larger answer (M, N); without roots, numbers may be complex."""
-        if varying.shape[1] <= FEW and self._filled_one_by_one(answer, rows, varying, uniform):
+        work = len(self.tape.operations) * varying.shape[1]
+        few = self.code and work <= FEW * len(self.levels.steps)
+        if few and self._filled_one_by_one(answer, rows, varying, uniform):
             return
-        if answer.dtype == varying.dtype == float and _DONE.repaid(len(self.tape.operations) * varying.shape[1]):
+        if answer.dtype == varying.dtype == float and _DONE.repaid(work):
             self.fill_by_code(answer, rows, varying, uniform)
+            return
+        if varying.shape[1] < WIDE:
+            answer[rows] = self.levels.outputs_of(varying, uniform)
             return
         with np.errstate(all="ignore"):
             for row, numbers in zip(rows, self._run(list(varying), uniform, _roots), strict=True):
@@ -116,7 +129,7 @@ class StraightLine:
     @cached_property
     def _run(self) -> Callable[..., Sequence[Any]]:
         names: dict[str, Any] = {"inf": float("inf"), "nan": float("nan")}
-        exec(self.code, names)
+        exec(self.code or compiled(self.tape), names)
         run: Callable[..., Sequence[Any]] = names["run"]
         return run
 
@@ -135,6 +148,12 @@ class _Done:
 
 
 _DONE = _Done()
+
+
+def straight_line(tape: Tape) -> StraightLine:
+    """The program of a tape."""
+    own = levels(tape)
+    return StraightLine(tape, own, compiled(tape) if len(tape.operations) <= FEW * len(own.steps) else None)
 
 
 def compiled(tape: Tape) -> CodeType:
