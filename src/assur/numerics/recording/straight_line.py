@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.recording.levels import Levels, levels
-from assur.numerics.recording.registers import assignments
 from assur.numerics.recording.tape import Tape
 
 if TYPE_CHECKING:
@@ -170,6 +169,8 @@ def lines(tape: Tape) -> list[str]:
     >>> lines(recorder.tape({"y": -(x * x)}))
     ['def run(varying, uniform, root):', '    v0 = varying[0]', '    v0 = v0 * v0', '    v0 = -v0', '    return [v0]']
     """
+    from assur.numerics.recording.registers import assignments  # where code is kept, nobody asks
+
     text = ["def run(varying, uniform, root):"]
     register: dict[int, int] = {}
     for entry, operation, place, arguments, given in assignments(tape, tape.outputs.values()):
