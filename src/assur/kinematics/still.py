@@ -34,7 +34,7 @@ characteristic lengths. Four digits lie between, so that neither rounding nor a 
 def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
     """What stands still about home and is another at joint values (N, n): its name; "" where nothing is.
 
-    What a parallelogram joins stands as in one: where it crosses over, all may turn in a plane.
+    What a parallelogram joins stands as in one, unless home's crosses: where it crosses over, all may turn in a plane.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
@@ -43,7 +43,7 @@ def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
     """
     names, still, home = _still(record)
     apart = (np.abs(_places(record, joints)[1] - home) > OTHER) & still
-    crossed = some_crossed(record, joints)
+    crossed = some_crossed(record, joints) & ~some_crossed(record, home_values(record)[None])
     return [
         names[int(np.argmax(row))] if np.any(row) else "how a parallelogram stands" if over else ""
         for row, over in zip(apart, crossed, strict=True)

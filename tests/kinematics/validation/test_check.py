@@ -6,6 +6,7 @@ The four-bar is made for exact numbers: its crank (30) and rocker (105) stand up
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -270,6 +271,14 @@ def test_files_of_the_tests_are_sound(path: Path) -> None:
         assert any(KNOWN[path.name] in problem.given for problem in found)
     else:
         assert found == ()
+
+
+def test_rods_on_balls_that_are_no_parallelogram_at_home_are_a_fault() -> None:
+    record = load_record("delta_4s").without_closed_form
+    found = assur.load("delta_4s").direct([0.0, 0.0, 0.0], method="search", crossed=True)
+    skew = found.joints[next(k for k, label in enumerate(found.labels) if "~" in label)]
+    told = [(item.path, item.given) for item in faults(replace(record, home=skew))]
+    assert ("limbs.leg.generalised.Pa", "no parallelogram at home") in told
 
 
 # ---- loops that do not close ----------------------------------------------------------------------------------

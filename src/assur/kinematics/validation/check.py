@@ -12,6 +12,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.home import home_values, without_loops
 from assur.kinematics.limits import Limit, limits
+from assur.kinematics.loops.parallelograms import crossed_parallelograms
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.rates.finite_motion import classify_at
@@ -48,7 +49,8 @@ ROUND = 1e-7
 @stage("soundness of the joint graph")
 def faults(record: MechanismRecord) -> tuple[Problem, ...]:
     """Faults of a mechanism whose file reads well: loops that do not close, no freedom, too few or too many inputs,
-    inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits.
+    inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits or in which a
+    parallelogram is none.
 
     All that do not follow from one another, in the order of the file.
 
@@ -65,7 +67,7 @@ def faults(record: MechanismRecord) -> tuple[Problem, ...]:
     found = freedom_problems(record, here)
     if here.moving:
         found += [*pose_problems(record, here), *_orientation(record, here)]
-    return _ordered([*found, *_limits(record)])
+    return _ordered([*found, *_limits(record), *_parallelograms(record)])
 
 
 def _ordered(problems: list[Problem] | tuple[Problem, ...]) -> tuple[Problem, ...]:
@@ -212,6 +214,18 @@ def _orientation(record: MechanismRecord, claims: Claims) -> list[Problem]:
     hint = "leave it out; or which axes should be parallel, which rods equally long?"
     path: KeyPath = ("platform", "orientation")
     return [problem(record, path, found, '"constant" only where it keeps its orientation', hint)]
+
+
+def _parallelograms(record: MechanismRecord) -> list[Problem]:
+    """Parallelograms of rods on balls that are none where the loops close: nothing holds what they join parallel.
+
+    Four hinges can only cross over, which is an assembly of its own.
+    """
+    rods = {name for name, group in record.generalised.items() if group.kind != "P(4R)"}
+    skew = rods.intersection(crossed_parallelograms(record, home_values(record))) if rods else ()
+    hint = "if what it joins may turn, its rods are bars by themselves, each S S or U S in the notation"
+    found, allowed = "no parallelogram at home", "a parallelogram where the loops close"
+    return _one_each([problem(record, place(record, "generalised", name), found, allowed, hint) for name in skew])
 
 
 def _limits(record: MechanismRecord) -> list[Problem]:
