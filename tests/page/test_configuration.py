@@ -62,7 +62,7 @@ def record_of(tmp_path_factory):
             return loaded(folder, text.replace("foot = 0.", "foot = -0."))
         if name == "balls":
             path = folder / "balls.toml"
-            assert main(["new", str(path), *(word for chain in BALLS for word in ("--chain", chain))]) == 0
+            assert main(["new", str(path), *(word for chain in BALLS for word in ("--chain", chain)), "--force"]) == 0
             return load(path)
         return load(name)
 
