@@ -18,7 +18,7 @@ from assur.machine.calibration.measured import DISTANCE, READ, TURNS, Measured, 
 from assur.mechanism import Mechanism
 from assur.model.pose import ANGLES, LENGTHS
 
-TITLE = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
+TITLE = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
 ANGLE_UNITS = {"deg": math.radians(1.0), "rad": 1.0}
 
 
