@@ -228,6 +228,7 @@ OWN = {
     "eight bars": ["--chain", "{R[z] R[z] | R[z] R[z]} R[z] R[z]", "--chain", "R[z] R[z]"],
     "2T1R hybrid": ["--chain", "{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "--chain", "P[x] R[y] R[y] R[z]"],
     "hybrid on a ball": ["--chain", "{P[y] R[x] R[x] | P[y] R[x] R[x]}", "--chain", "P[y] U[x,y] S"],
+    "five bars and a parallelogram": ["--chain", "R[z] P(4R)[z] R[z]", "--chain", "R[z] R[z]"],
     "cylinders": ["--chain", "R[z] C[x]", "--chain", "C[y] C[1,1,1]", "--actuate", "1.1"],
     "a cylinder and hinges": ["--chain", "C[z] R[x] R[x]", "--chain", "P[y] R[x] R[x]"],
     "slides on cranks": ["--limb", "R[z] R[z] P[x]", "--count", "3"],
@@ -365,3 +366,13 @@ def test_rods_on_universal_joints_are_named_as_rods_on_balls():
         frames(with_ball_ends(record), ball_ended_values(record, home[None]))["platform"][1],
         frames(record, home[None])["platform"][1],
     )
+
+
+@pytest.mark.parametrize("own", ["five bars and a parallelogram"], indirect=True)
+def test_no_mode_is_named_by_a_parallelogram_that_lies_flat_where_an_elbow_tells(own):
+    """At some poses the elbow's two solutions have the parallelogram on either side, at others on one."""
+    signs = distinguishing_signs(own, "inverse")
+    assert not any(factor.moving for sign in signs for factor in sign.factors)
+    solutions = inverse(own, pose_of(own, home_values(own)) + 0.01)
+    told = signs_of(own, "inverse", solutions.joints[solutions.exists])
+    assert len(np.unique(told, axis=0)) == len(told) == len(signs) == 2

@@ -128,13 +128,13 @@ def _named(
     apart = np.where(np.arange(len(joined)) < telling, apart, False)
     signs = [ModeSign(tuple(known[k] for k in chosen)) for chosen in joined]
     near = ScrewColumns.together([screws_apart(record), *(own.screws for own in answers)])
-    last = [problem == "direct" and flat for flat in _flat_loops(known, joined, near)]
-    order = [*_separating(apart.T, last)]
+    flat = _flat_loops(known, joined, near)
+    order = [*_separating(apart.T, flat)]
     given = [k for k, sign in enumerate(signs) if problem == "direct" and sign.read_off_inputs(record)]
     merging = differing_at_folds(problem, signs, near, [*order, *given])
-    listed = [*order, *(k for later in (False, True) for k, own in enumerate(last) if own == later)]
+    listed = [*order, *(k for k, own in enumerate(flat) if not own)]
     order += [listed[k] for k in independent(merging.T[listed]) if k >= len(order)]
-    order += _separating(namesakes(problem, signs, near, [*order, *given]).T, last)
+    order += _separating(namesakes(problem, signs, near, [*order, *given]).T, flat)
     return signs, sorted(order)
 
 
@@ -302,7 +302,7 @@ def _closed(
 def _flat_loops(known: Sequence[Factor], joined: Sequence[Sequence[int]], screws: ScrewColumns) -> list[bool]:
     """Which products of factors change where a loop that moves by itself is flat: by its sign, or that of a whole.
 
-    A flat parallelogram is no singularity of the direct problem of those that stay such.
+    A flat parallelogram is no singularity of either problem of those that stay such: no two solutions merge there.
     """
     signs = factor_signs(known, screws)
     rows = signs[np.all(signs != 0, axis=1)].T < 0

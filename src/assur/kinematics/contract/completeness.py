@@ -17,7 +17,7 @@ from assur.kinematics.loops.parallelograms import some_crossed
 from assur.kinematics.modes import Problem, mode_text
 from assur.kinematics.naming import declared_signs
 from assur.kinematics.pose import pose_error, pose_of
-from assur.kinematics.rates.motions import InstantaneousMotion
+from assur.kinematics.rates.motions import InstantaneousMotion, general_share
 from assur.kinematics.status import closed_form_of
 from assur.kinematics.still import otherwise
 from assur.model.mechanism import MechanismRecord
@@ -26,7 +26,8 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 CLEAR = 1e-3
-"""An assembly nearer to a singularity than this (a sine) is not asked for: rounding decides whether it is there."""
+"""An assembly nearer to a singularity than this (a sine, of the closure a share of what it is around home) is not asked
+for: rounding decides whether it is there, and where the closure nearly loses rank, how far its links have turned."""
 SAME = 1e-5
 """Solutions nearer to each other than this share of the characteristic length are one."""
 CONSTANT, TURNED = 1e-9, 1e-4
@@ -47,7 +48,7 @@ def missing(solutions: Solutions, joints: FloatArray, motion: InstantaneousMotio
     for problem in ("inverse", "direct"):
         if not solves(record, problem) or not len(joints):
             continue
-        here = joints[_clear(problem, motion)]
+        here = joints[_clear(record, problem, motion)]
         given = pose_of(record, here) if problem == "inverse" else border.inputs_of(record, here)
         lacking = _unmatched(record, problem, given, here, solutions)
         within = lacking[~_left_out(solutions, here[lacking])][:1]
@@ -72,12 +73,12 @@ def random_assemblies(record: MechanismRecord, count: int, random: np.random.Gen
     return np.concatenate([home[None], reached.values[reached.closed]])
 
 
-def _clear(problem: Problem, motion: InstantaneousMotion) -> BoolArray:
-    """Where what is given determines the assembly, well away from a singularity."""
+def _clear(record: MechanismRecord, problem: Problem, motion: InstantaneousMotion) -> BoolArray:
+    """Where what is given determines the assembly, well away from a singularity, of constraints too."""
     part = motion.pose if problem == "inverse" else motion.inputs
     sizes = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1]
-    usual = motion.ranks.closure == np.max(motion.ranks.closure)
-    return np.asarray((sizes > CLEAR) & usual)
+    least = motion.values[..., int(np.max(motion.ranks.closure)) - 1] / motion.values[..., 0]
+    return np.asarray((sizes > CLEAR) & (least > CLEAR * general_share(record)))
 
 
 def _unmatched(
