@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from assur.kinematics.closing_blocks.distinguishing import ModeSign
+from assur.kinematics.closing_blocks.platform_signs import PlatformSign
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor
 
 CLEAR = 0.1
@@ -35,8 +36,8 @@ def _factors(sign: ModeSign, other: ModeSign) -> Iterator[Factor]:
     """Those factors of a sign that another one has, in its spaces."""
     for own, new in zip(sign.factors, other.factors, strict=True):
         if not isinstance(own, BlockSign) or not isinstance(new, BlockSign):
-            if own == new:
-                yield own
+            if isinstance(own, PlatformSign) and type(own) is type(new) and own.joints == new.joints:
+                yield new
             continue
         alike = own.block == new.block and own.links == new.links
         if not alike or own.basis.shape != new.basis.shape or own.rates.shape != new.rates.shape:

@@ -184,6 +184,12 @@ class ScrewColumns:
         joint = self.record.joints[name]
         return np.broadcast_to(self._frames[joint.parent][0] @ joint.axes[0], (len(self.values), 3))
 
+    def frame(self, link: str) -> Frame:
+        """Orientation (N, 3, 3) and origin (N, 3) of a link."""
+        rotation, origin = self._frames[link]
+        count = len(self.values)
+        return np.broadcast_to(rotation, (count, 3, 3)), np.broadcast_to(origin, (count, 3))
+
     @cached_property
     def _frames(self) -> dict[str, Frame]:
         return frames(self.record, self.values)

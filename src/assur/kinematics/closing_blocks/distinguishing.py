@@ -23,6 +23,7 @@ from assur.kinematics.closing_blocks.chains import nodes
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance, open_freedoms
 from assur.kinematics.closing_blocks.folds import differing_at_folds
 from assur.kinematics.closing_blocks.namesakes import namesakes
+from assur.kinematics.closing_blocks.platform_signs import platform_signs
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor, factor_signs, factors, screws_apart
 from assur.kinematics.closing_blocks.strokes import StrokeSign
 from assur.kinematics.closing_blocks.triangular import triangular_factors
@@ -111,7 +112,9 @@ def distinguishing_signs(record: MechanismRecord, problem: Problem) -> tuple[Mod
     solved = [ScrewColumns(ordered, values) for values in _solved(ordered, problem, _targets(ordered, known))]
     compared = _compared(solved, known)
     telling, told = len(compared[1]), bool(np.all(np.any(compared[2], axis=1)))
-    more = triangular_factors(known, screws_apart(ordered), problem)
+    more: list[Factor] = [*triangular_factors(known, screws_apart(ordered), problem)]
+    if not told:
+        more += platform_signs(screws_apart(ordered), problem)
     finer = [*known, *more]
     signs, order = _named(ordered, problem, finer, _compared(solved, finer) if more else compared, telling)
     if more and (not told or order[-1:] >= [telling]):

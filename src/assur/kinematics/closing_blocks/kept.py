@@ -24,6 +24,7 @@ from assur.kinematics.closing_blocks.blocks import ClosingBlock, Spin
 from assur.kinematics.closing_blocks.carried import carried
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign, distinguishing_signs
+from assur.kinematics.closing_blocks.platform_signs import FacingSign, OperationSign, ReachSign
 from assur.kinematics.closing_blocks.sentences import sentence
 from assur.kinematics.closing_blocks.signs import BlockSign, Factor
 from assur.kinematics.closing_blocks.strokes import StrokeSign
@@ -108,6 +109,12 @@ def _name(record: MechanismRecord, problem: Problem) -> str:
 
 
 def _data(factor: Factor) -> dict[str, Any]:
+    if isinstance(factor, OperationSign):
+        return {"home": factor.home.tolist(), "form": factor.form.tolist(), "axes": factor.axes.tolist()}
+    if isinstance(factor, ReachSign):
+        return {"hinge": factor.hinge, "direction": factor.direction.tolist(), "length": factor.length}
+    if isinstance(factor, FacingSign):
+        return {"row": factor.row, "column": factor.column, "home": factor.home}
     if isinstance(factor, StrokeSign):
         return {"slide": factor.slide, "near": factor.near, "far": factor.far, "size": factor.size}
     block = factor.block
@@ -125,6 +132,12 @@ def _data(factor: Factor) -> dict[str, Any]:
 
 
 def _factor(data: Mapping[str, Any]) -> Factor:
+    if "form" in data:
+        return OperationSign(np.array(data["home"]), np.array(data["form"]), np.array(data["axes"]))
+    if "hinge" in data:
+        return ReachSign(data["hinge"], np.array(data["direction"]), float(data["length"]))
+    if "row" in data:
+        return FacingSign(data["row"], data["column"], float(data["home"]))
     if "slide" in data:
         return StrokeSign(data["slide"], data["near"], data["far"], float(data["size"]))
     block = ClosingBlock(

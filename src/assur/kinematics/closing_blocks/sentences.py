@@ -9,7 +9,7 @@ from assur.kinematics.closing_blocks.blocks import PLATFORM
 from assur.kinematics.closing_blocks.columns import ScrewColumns
 from assur.kinematics.closing_blocks.distinguishing import ModeSign
 from assur.kinematics.closing_blocks.sides import side
-from assur.kinematics.closing_blocks.strokes import StrokeSign
+from assur.kinematics.closing_blocks.signs import BlockSign
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 
@@ -26,12 +26,12 @@ def sign_name(record: MechanismRecord, sign: ModeSign, taken: set[str]) -> str:
     joints = [name for name in sign.joints if name != PLATFORM]
     limbs = [limb.name for limb in record.chains.values() if {*joints} <= {*limb.serial, *limb.loop, *limb.tail}]
     prefixes = {name.rpartition(".")[0] for name in joints}
-    if limbs:
+    if limbs and joints:
         base = limbs[0]
     elif len(prefixes) == 1 and "" not in prefixes:
         base = prefixes.pop()
     else:
-        base = "platform" if len(joints) > len(record.joints) / 2 else f"{joints[0]}-{joints[-1]}"
+        base = "platform" if not joints or len(joints) > len(record.joints) / 2 else f"{joints[0]}-{joints[-1]}"
     names = (base, *(f"{base} {number}" for number in range(2, len(taken) + 3)))
     return next(name for name in names if name not in taken)
 
@@ -47,11 +47,9 @@ def sentence(record: MechanismRecord, sign: ModeSign) -> str:
     """
     if sign.meaning:
         return sign.meaning
-    if len(sign.factors) == 1:
-        factor = sign.factors[0]
-        if isinstance(factor, StrokeSign):
-            word = "ahead of" if factor.size > 0 else "behind"
-            return f"{factor.far} lies {word} {factor.near} along {factor.slide}"
+    (factor, *others) = sign.factors
+    if not others and not isinstance(factor, BlockSign):
+        return factor.meaning
     if words := side(record, sign):
         return words
     screws = _at_home(record, sign.needs_platform(with_ball_ends(record)))

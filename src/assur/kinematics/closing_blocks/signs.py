@@ -33,6 +33,7 @@ from assur.kinematics.closing_blocks.blocks import (
     standing_links,
 )
 from assur.kinematics.closing_blocks.columns import FEW, ScrewColumns, assemblies_by_chance, open_freedoms
+from assur.kinematics.closing_blocks.platform_signs import PlatformSign
 from assur.kinematics.closing_blocks.spaces import in_narrow_loops, span, steadiest_link
 from assur.kinematics.closing_blocks.strokes import MERGED, StrokeSign, stroke_signs, with_zero
 from assur.kinematics.modes import Problem
@@ -101,7 +102,7 @@ class BlockSign:
         return with_zero(self.shares(screws))
 
 
-Factor = BlockSign | StrokeSign
+Factor = BlockSign | StrokeSign | PlatformSign
 """A function of the configuration whose sign only changes at singularities."""
 
 

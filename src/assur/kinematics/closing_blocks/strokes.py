@@ -47,6 +47,11 @@ class StrokeSign:
         """The three of them."""
         return self.near, self.slide, self.far
 
+    @property
+    def meaning(self) -> str:
+        """What holds where it is +."""
+        return f"{self.far} lies {'ahead of' if self.size > 0 else 'behind'} {self.near} along {self.slide}"
+
     def shares(self, screws: ScrewColumns) -> FloatArray:
         """The stroke (N,) as a share of home's."""
         line = screws.centre(self.far) - screws.centre(self.near)
