@@ -23,6 +23,7 @@ from assur.model.closed_form import Factor
 from assur.results.typeset_text import minus
 from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.region import Workspace
+from assur.workspace.rims import rim_edges
 from assur.workspace.slices import slice_at
 
 FloatArray = NDArray[np.float64]
@@ -115,9 +116,7 @@ def _walk(graph: nx.Graph[int], start: int) -> list[int]:
 
 def rim(locus: Locus) -> FloatArray:
     """Edges (k, 2, 3) that bound a locus: where it meets the border of the workspace."""
-    edges = np.sort(locus.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    unique, count = np.unique(edges, axis=0, return_counts=True)
-    return np.asarray(locus.vertices[unique[count == 1]])
+    return np.asarray(locus.vertices[rim_edges(locus.faces)])
 
 
 def in_plane(locus: Locus, axis: int, value: float) -> FloatArray:

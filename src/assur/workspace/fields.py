@@ -90,11 +90,21 @@ def values_at(fields: Mapping[Key, Field], columns: Columns) -> dict[Key, FloatA
     return values
 
 
-def samples(fields: Mapping[Key, Field], grid: UniformGrid) -> dict[Key, NDArray[np.float32]]:
-    """Fields at every node of a grid, block by block; where one is not finite the pose is not allowed."""
+def samples(
+    fields: Mapping[Key, Field], grid: UniformGrid, finer: Mapping[Key, NDArray[np.float32]] | None = None
+) -> dict[Key, NDArray[np.float32]]:
+    """Fields at every node of a grid, block by block; where one is not finite the pose is not allowed.
+
+    `finer` is what they are at the nodes of a grid of twice as many cells: only the outermost are read then.
+    """
     answer = {name: np.empty(grid.shape, dtype=np.float32) for name in fields}
+    read = np.ones(grid.shape, dtype=bool)
+    for name in finer or {}:
+        inner, every_other = (tuple(slice(1, -1, step) for _ in grid.cells) for step in (1, 2))
+        read[inner] = False
+        answer[name][inner] = (finer or {})[name][every_other]
     with np.errstate(over="ignore"):  # a pose so far away is not allowed either
-        for part, columns in grid.blocks():
+        for part, columns in grid.blocks() if finer is None else [(read, grid.columns(np.argwhere(read)))]:
             for name, values in values_at(fields, columns).items():
                 answer[name][part] = values
     for at_nodes in answer.values():

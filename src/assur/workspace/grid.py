@@ -89,6 +89,10 @@ class UniformGrid:
         """Coordinates (..., 3) of node indices (..., 3), which may be fractions; node (0, 0, 0) is at i = -1."""
         return self.low + self.step * (index - 1.0)
 
+    def columns(self, index: NDArray[np.intp]) -> tuple[FloatArray, ...]:
+        """The coordinates, each (n,), of nodes (n, 3)."""
+        return tuple(self.position(index.astype(float)).T[: self.dimension])
+
     def blocks(self, size: int = 2**18) -> Iterator[tuple[slice, tuple[FloatArray, ...]]]:
         """Slabs of nodes along the first axis, about `size` nodes each, as components that broadcast."""
         axes = [self.position(np.arange(count)[:, None] + np.zeros(3))[:, k] for k, count in enumerate(self.shape)]

@@ -10,15 +10,20 @@ from functools import partial
 import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from assur.workspace.crossings import root_of
 from assur.workspace.fields import Field, at_points, samples
 from assur.workspace.followed_field import FollowedField
 from assur.workspace.followed_reach import ReachField
 from assur.workspace.grid import UniformGrid
+from assur.workspace.rims import with_rim
 from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
 
 FloatArray = NDArray[np.float64]
+INSIDE = 0.04
+"""Share of the way from the border to the nearest node inside at which a factor is read: a facet of the border may be
+off by the square of a step, which would count as depth nearer to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +35,7 @@ class Reach:
         factors: the parallel factors of the working mode.
         solid: the region on three axes, cut exactly by the box.
         inside: (nodes) where no margin is negative.
-        factors_at_nodes: (nodes) each factor.
+        at_nodes: (nodes) each field, by "margin" or "factor" and its name.
         cells: (cells) that may hold a part of the region: at no margin all of its corners are negative.
     """
 
@@ -38,7 +43,7 @@ class Reach:
     factors: Mapping[str, Field]
     solid: Manifold
     inside: NDArray[np.bool_]
-    factors_at_nodes: Mapping[str, NDArray[np.float32]]
+    at_nodes: Mapping[tuple[str, str], NDArray[np.float32]]
     cells: NDArray[np.bool_]
 
     @property
@@ -50,14 +55,31 @@ class Reach:
         """A factor at the nodes (k,) that the region reaches, one cell beyond the box included; none if it is empty."""
         if self.solid.is_empty():
             return np.empty(0, dtype=np.float32)
-        return self.factors_at_nodes[name][self.inside]
+        return self.at_nodes["factor", name][self.inside]
 
     def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
         """Zero set of a factor inside the region: vertices (n, m), faces (k, 3) or segments (k, 2), area or length."""
-        cutter = _solid(self.factors[name], self.factors_at_nodes[name], self.grid, self.cells)
-        vertices, faces = surface_in(self.solid, cutter)
+        cutter = _solid(self.factors[name], self.at_nodes["factor", name], self.grid, self.cells)
+        surface = surface_in(self.solid, cutter)
+        vertices, faces = with_rim(surface, mesh(self.solid), partial(self._at_border, name), self.grid)
         size = area_of(vertices, faces) / self.grid.thickness
         return *in_pose_coordinates(self.grid, vertices, faces), size
+
+    def _at_border(self, name: str, points: FloatArray) -> FloatArray:
+        """A factor (n,) at points (n, 3) on the border. One that was followed is not known there, but 1, 4 and 9 times
+        `INSIDE` further in: it runs as a + b s + c s^2 with s = sqrt(depth), and is a at s = 0.
+        """
+        field = self.factors[name]
+        if not isinstance(field, FollowedField):
+            return at_points(field, self.grid.dimension, points)
+        index = np.rint((points - self.grid.position(np.zeros(3))) / self.grid.step).astype(np.intp)
+        index = np.clip(index, 0, np.subtract(self.grid.shape, 1))
+        nodes = distance_transform_edt(~self.inside, return_distances=False, return_indices=True)[:, *index.T].T
+        way = self.grid.position(nodes.astype(float)) - points
+        first, second, third = (
+            at_points(field, self.grid.dimension, points + depth * way) for depth in (INSIDE, 4 * INSIDE, 9 * INSIDE)
+        )
+        return 3 * first - 3 * second + third
 
     def mesh(self) -> tuple[FloatArray, Faces]:
         """Surface of the region, vertices (n, 3) and faces (k, 3); of a plane one its inside, triangulated."""
@@ -73,14 +95,17 @@ def reach(
     factors: Mapping[str, Field],
     grid: UniformGrid,
     tick: Callable[[], None] = lambda: None,
+    finer: Reach | None = None,
 ) -> Reach:
     """Intersect the box with the solid of every margin; equal fields count once, positive ones not at all.
 
-    Margins and factors are read together, once per node. Resolution: what is thinner than a cell between two nodes is
-    not seen. `tick` is called after each margin.
+    Margins and factors are read together, once per node; not again where `finer`, the same on twice as many cells,
+    has the node. Resolution: what is thinner than a cell between two nodes is not seen. `tick` is called after each
+    margin.
     """
     kinds = {"margin": margins, "factor": factors}
-    at_nodes = samples({(kind, name): field for kind in kinds for name, field in kinds[kind].items()}, grid)
+    fields = {(kind, name): field for kind in kinds for name, field in kinds[kind].items()}
+    at_nodes = samples(fields, grid, finer.at_nodes if finer else None)
     inside = np.ones(grid.shape, dtype=bool)
     cells = _in_box(grid)
     for name in margins:
@@ -95,8 +120,7 @@ def reach(
             solids += _solids(field, values, grid, cells)
         seen.add(digest)
         tick()
-    kept = {name: at_nodes["factor", name] for name in factors}
-    return Reach(grid, factors, intersection(solids), inside, kept, cells)
+    return Reach(grid, factors, intersection(solids), inside, at_nodes, cells)
 
 
 def _in_box(grid: UniformGrid) -> NDArray[np.bool_]:

@@ -36,4 +36,4 @@ def at_two_resolutions(
     if resolution < 4:
         raise UsageError(f"resolution: {resolution} cells are too few; at least 4 along each coordinate")
     fine = reach(margins, factors, grid, tick)
-    return fine, reach(margins, factors, grid_over(box, resolution // 2), tick)
+    return fine, reach(margins, factors, grid_over(box, resolution // 2), tick, None if resolution % 2 else fine)
