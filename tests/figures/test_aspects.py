@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
 from assur.errors import UsageError
 from assur.figures.aspects import caption, drawn, no_aspects, shown
@@ -49,6 +50,11 @@ def test_each_aspect_is_drawn_with_the_area_of_its_boxes():
         item.label for item in found.aspects
     ]
     assert axes.get_xlim() == pytest.approx((-110.0, 90.0))
+    # the border that is traced lies between what is proved and what may be
+    lines = Path.make_compound_path(*(Path(line, closed=True) for line in axes.collections[0].get_segments()))
+    proved = sum(area(data["rectangles"][0]) for data in drawing.data["aspects"])
+    assert proved < enclosed(lines) < proved + area(drawing.data["undecided"][0])
+    assert all(part.get_clip_path() is not None for part in drawn_areas)
 
 
 def test_space_is_cut_and_each_cut_shows_what_lies_in_it():

@@ -7,6 +7,7 @@ import pytest
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.force_polytope import FORCE_POLYTOPE
 from assur.kinematics.pose import pose_of
 from assur.machine.forces.capacity import capacity
 
@@ -27,3 +28,8 @@ def test_without_limits_of_the_actuators_there_is_none():
     record = assur.load("fivebar")
     bare = figures.Context(replace(record, machine=replace(record.machine, actuators={})))
     assert "no largest force of theta1, theta2" in figures.left_out(bare.record, bare)["polytope"]
+
+
+def test_forces_along_one_direction_span_none():
+    context = figures.Context(assur.load("three_rps"))  # of the translations only that along z is a coordinate
+    assert "along one direction" in FORCE_POLYTOPE.missing(context)

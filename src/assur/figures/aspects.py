@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from manifold3d import CrossSection, FillRule
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.patheffects import withStroke
@@ -28,6 +30,12 @@ from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
+from assur.workspace.domain import Box
+from assur.workspace.fields import closed_form_fields
+from assur.workspace.grid import grid_over
+from assur.workspace.projections import projection
+from assur.workspace.reach import reach
+from assur.workspace.slices import Slice
 
 FloatArray = NDArray[np.float64]
 
@@ -36,6 +44,9 @@ CUTS = 4
 
 HATCHES = ("", "////", "\\\\\\\\", "....", "xxxx")
 """Beyond the colours aspects are told apart by these, and always by their labels."""
+
+TRACED = 96
+"""Cells along each coordinate over which the border of the workspace is traced, beside what is proved."""
 
 NAMED = 10
 """Aspects in the legend, the largest first."""
@@ -83,7 +94,7 @@ def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) ->
         start = LEFT + (k % columns) * (wide + GAP + LEFT)
         low = (rows - 1 - k // columns) * (tall + below) + below
         axes = figure.add_axes((start / width, low / height, wide / width, tall / height))
-        _panel(axes, aspects, value, PATCH * whole)
+        _panel(axes, aspects, value, PATCH * whole, traced(context, aspects, value))
         if path is not None and value is None:
             _way(axes, path)
         dress(context, axes, aspects.box, (across, upward))
@@ -117,7 +128,7 @@ def _parts(aspects: Aspects) -> str:
     least = f"{100 - float(open_):.4g}"
     return (
         f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"
-        f" the rest of it, at most {open_} %, is undecided and lies in the grey."
+        f" the rest of it, at most {open_} %, is undecided and lies in the grey. The line is its border, traced."
     )
 
 
@@ -171,15 +182,33 @@ def _aspect(aspects: Aspects, across: str, upward: str) -> float:
     return float(np.clip(spans[1] / spans[0], 0.3, 1.6)) if is_angle(across) == is_angle(upward) else 1.0
 
 
-def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float) -> None:
-    """One cut, with the labels of those aspects that have at least so large an area there."""
+def traced(context: Context, aspects: Aspects, value: float | None) -> tuple[FloatArray, ...]:
+    """The border of the workspace in a plane or a cut, polygons (n, 2) in the order of the first two coordinates."""
+    plane, box = aspects.names[:2], aspects.box
+    held = {name: sum(box.intervals[box.axis(name)]) / 2 for name in aspects.slice.free if name not in plane}
+    if value is not None:
+        held[aspects.names[2]] = value
+    poses = Slice(aspects.slice.pose, plane, {**aspects.slice.held, **held})
+    margins, _ = closed_form_fields(context.record, aspects.mode, aspects.strokes, poses)
+    low, high = (tuple(ends[box.axis(name)] for name in plane) for ends in (box.low, box.high))
+    return projection(reach(margins, {}, grid_over(Box(plane, low, high), TRACED)), plane).polygons
+
+
+def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float, border: Sequence[FloatArray]) -> None:
+    """One cut inside a border, with the labels of those aspects that have at least so large an area there."""
+    whole = outline(border)
     for rectangles, style in [
         (_rectangles(aspects.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
         *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(aspects.aspects)),
     ]:
         area = outline(_united(rectangles))
         if area is not None:
-            axes.add_patch(PathPatch(area, linewidth=0.15, **style))
+            patch = axes.add_patch(PathPatch(area, linewidth=0.15, **style))
+            if whole is not None:
+                patch.set_clip_path(whole, axes.transData)
+    axes.add_collection(
+        LineCollection([np.concatenate([line, line[:1]]) for line in border], colors=INK, linewidths=0.8)
+    )
     for item in aspects.aspects:
         _letter(axes, item, _rectangles(item.boxes, value), least)
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 from numpy.typing import NDArray
@@ -114,6 +115,23 @@ def canvas(width: float, height: float) -> Canvas:
     axes.set_xlim(0.0, width * POINTS)
     axes.set_ylim(0.0, height * POINTS)
     return Canvas(figure, axes)
+
+
+class TextWidths:
+    """Widths of texts in points.
+
+    >>> widths = TextWidths()
+    >>> widths("iii", 8.0) < widths("mmm", 8.0) < widths("mmm", 9.0)
+    True
+    """
+
+    def __init__(self) -> None:
+        self._figure = new_figure(10, 10)
+        self._renderer = FigureCanvasAgg(self._figure).get_renderer()  # type: ignore[no-untyped-call]  # matplotlib does not say
+
+    def __call__(self, text: str, size: float) -> float:
+        """That of a text at a size of letters in points."""
+        return float(self._figure.text(0, 0, text, fontsize=size).get_window_extent(self._renderer).width)
 
 
 def fitted(camera: Camera, cloud: FloatArray, width: float, tallest: float, margin: float = 8.0) -> tuple[View, Canvas]:

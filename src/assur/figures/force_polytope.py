@@ -28,7 +28,11 @@ def _missing(context: Context) -> str:
         return no_masses(context)
     unknown = np.isnan(stated(context.record, "force"))
     names = [item.name for item, none in zip(context.record.drives, unknown, strict=True) if none]
-    return f"the mechanism's file says no largest force of {', '.join(names)}" if names else ""
+    if names:
+        return f"the mechanism's file says no largest force of {', '.join(names)}"
+    if len(held(context).axes) < 2:
+        return "forces along one direction span no polytope; the figure forces maps what is held along it"
+    return "" if len(held(context).vertices) else "the actuators do not bound the forces that are held"
 
 
 def held(context: Context) -> ForceCapacity:
@@ -39,8 +43,6 @@ def held(context: Context) -> ForceCapacity:
 
 def _caption(context: Context) -> str:
     capable = held(context)
-    if not len(capable.vertices):
-        return "Forces on the platform that the actuators hold at rest: no polytope, as not all of them are bounded."
     return (
         f"Forces on the platform that the actuators hold at rest within their limits, gravity included, along"
         f" {', '.join(capable.axes)}. The circle is the largest sphere about no force, {capable.sphere:.4g} N; beyond"
@@ -53,7 +55,7 @@ def _draw(context: Context) -> Drawing:
     corners = np.zeros((len(capable.vertices), 3))
     corners[:, : len(capable.axes)] = capable.vertices
     flat = len(capable.axes) < 3
-    ball = capable.sphere * np.concatenate([np.eye(3), -np.eye(3)]) if len(corners) else np.eye(3)
+    ball = capable.sphere * np.concatenate([np.eye(3), -np.eye(3)])
     if flat:
         ball[:, 2] = 0.0
     cloud = np.concatenate([corners, ball])
@@ -63,8 +65,7 @@ def _draw(context: Context) -> Drawing:
     if not flat:
         draw_box(page, view, low, high)
         draw_axes(page, view, low, high, [f"${name}$ (N)" for name in capable.axes], [1.0] * 3)
-    if len(corners):
-        _draw_polytope(page, view, corners, capable, flat=flat)
+    _draw_polytope(page, view, corners, capable, flat=flat)
     return Drawing(page.figure, {"axes": capable.axes, "vertices": capable.vertices, "sphere": capable.sphere,
                                  "limiting": capable.limiting, "per_axis": capable.per_axis})  # fmt: skip
 

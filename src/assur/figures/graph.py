@@ -9,17 +9,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from assur.figures.canvas import POINTS, Canvas, canvas
+from assur.figures.canvas import POINTS, Canvas, TextWidths, canvas
 from assur.figures.context import Context
 from assur.figures.graph_layout import Bond, GraphLayout, plan
 from assur.figures.letters import letter
 from assur.figures.spec import Drawing, FigureKind, always
-from assur.figures.style import GREY, INK, ORANGE, PAGE, PAPER, SERIES, SMALL, TEXT, new_figure
+from assur.figures.style import GREY, INK, ORANGE, PAGE, PAPER, SERIES, SMALL, TEXT
 from assur.figures.symbols import hatching
 from assur.topology.screws.linkage import Linkage
 
@@ -98,7 +97,7 @@ def graph_drawing(
         width: of the page in mm; where the legend has no room beside the graph, it stands below it.
     """
     found = edges(linkage)
-    measure = _Measure()
+    measure = TextWidths()
     links = tuple(dict.fromkeys(link for item in found for link in (item.start, item.end)))
     widths = {link: measure(letter(link), SMALL) + 10.0 for link in links}
     bonds = [
@@ -116,17 +115,6 @@ def graph_drawing(
         _link(page, places.links[link], letter(link), ground=link == linkage.base, top=link == linkage.platform)
     _write(page, corner, legend)
     return Drawing(page.figure, _data(linkage, found, places, loops, assur_chains))
-
-
-class _Measure:
-    """Widths of texts in points."""
-
-    def __init__(self) -> None:
-        self._figure = new_figure(10, 10)
-        self._renderer = FigureCanvasAgg(self._figure).get_renderer()  # type: ignore[no-untyped-call]  # matplotlib does not say
-
-    def __call__(self, text: str, size: float) -> float:
-        return float(self._figure.text(0, 0, text, fontsize=size).get_window_extent(self._renderer).width)
 
 
 @dataclass(frozen=True)

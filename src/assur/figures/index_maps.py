@@ -20,6 +20,8 @@ from assur.workspace.index_maps import IndexMaps, index_maps
 
 FloatArray = NDArray[np.float64]
 NODES = 32
+ROUND, POWERS = 13.0, 15.0
+"""Room for a bar of colours in mm, with round numbers at its ticks and with powers of ten."""
 
 
 def whole(context: Context) -> IndexMaps:
@@ -45,7 +47,7 @@ def drawn(
     (first, xs), (second, ys) = maps.axes
     plane = MappedPlane(context, (first, second), maps.held, xs, ys)
     titles = [f"${item.symbol}$" + (f" ({units(item.unit)})" if item.unit else "") for item in maps.maps.values()]
-    figure, pairs = panels(plane, titles, right=13.0)
+    figure, pairs = panels(plane, titles, right=POWERS if by_decades else ROUND)
     for pair, (name, item) in zip(pairs, maps.maps.items(), strict=True):
         top, index = (tops or {}).get(name), INDICES.get(name)
         known = item.values[np.isfinite(item.values)]

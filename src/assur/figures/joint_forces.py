@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
+from assur.figures.letters import letter
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
@@ -71,7 +72,8 @@ def _draw(context: Context) -> Drawing:
         way = np.array([view(start), view(end)])
         letters.avoid(way)
         if np.linalg.norm(item.force) >= SMALLEST * passed.largest > 0.0:
-            letters.add(view(start), f"{item.joint} {np.linalg.norm(item.force):.3g}", clear=5.0, fontsize=SMALL)
+            name = letter(context.record.joints[item.joint].alias or item.joint)
+            letters.add(view(start), f"{name} {np.linalg.norm(item.force):.3g}", clear=5.0, fontsize=SMALL)
     letters.place()
     return Drawing(page.figure, _data(context, passed))
 

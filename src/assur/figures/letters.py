@@ -51,6 +51,16 @@ def mathematics(name: str) -> str:
     return ""
 
 
+def dimension(name: str) -> str:
+    """A dimension or a link as it is printed; of a dimension of one part alone the part is told.
+
+    >>> dimension("l2"), dimension("leg1.rod_a.L"), dimension("leg2.L"), dimension("leg2.arm"), dimension("3 others")
+    ('$l_{2}$', '$L$ of rod a 1', '$L$ of leg 2', 'arm 2', '3 others')
+    """
+    part, _, own = name.rpartition(".")
+    return f"${mathematics(own)}$ of {words(part)}" if part and mathematics(own) else letter(name)
+
+
 def words(name: str) -> str:
     """A name of words with its number or letter apart; of a limb's part the limb's number first, as in its letters.
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
+from assur.figures.letters import dimension
 from assur.figures.page import side_by_side
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
@@ -128,7 +129,7 @@ def _draw_bars(
     axes = figure.add_axes((place[0] / page[0], place[1] / page[1], place[2] / page[0], place[3] / page[1]))
     names, lengths = [name for name, _ in bars.longest], [length for _, length in bars.longest]
     axes.barh(range(len(names)), lengths, color=[colours.get(name, BLUE) for name in names], height=0.65)
-    axes.set_yticks(range(len(names)), names, fontsize=SMALL)
+    axes.set_yticks(range(len(names)), [dimension(name) for name in names], fontsize=SMALL)
     axes.invert_yaxis()
     axes.set_xlabel(words, fontsize=TEXT, labelpad=1.5)
     axes.set_xlim(0.0, max(lengths, default=0.0) or 1.0)

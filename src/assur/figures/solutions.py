@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.canvas import POINTS, Canvas, TextWidths, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import unit_after
 from assur.figures.labels import label
@@ -41,6 +41,12 @@ LEAST = 0.1
 
 MOST = 8
 """More than these on one another cannot be read."""
+
+DIGITS = ((4, 4), (3, 4), (2, 4), (2, 3), (1, 3), (1, 2))
+"""Decimals in the table, of lengths and angles and of quaternions: the first with which it has room, else the last."""
+
+CELL, APART, ROOMY = SMALL + 0.5, 1.2, 14.0
+"""Size of its letters in points; white between two columns in mm, at least and at most."""
 
 GHOSTS = (RED, BLUE, GREEN, PINK, SKY, ORANGE, "#7f7f7f")
 
@@ -156,26 +162,38 @@ def _panel(context: Context, page: Canvas, view: View, ghosts: list[Ghost]) -> N
 
 
 def _table(context: Context, page: Canvas, ghosts: list[Ghost], width: float, height: float) -> None:
-    """Coordinates of every solution, in its colour."""
+    """Coordinates of every solution, in its colour, with as many digits as there is room for."""
     record = context.record
     heads = ["", *(_head(context, name) for name in record.platform.pose), _mode_head(context)]
-    step = min(34.0, (width - 24.0) / len(heads))
-    left = (width - step * (len(heads) - 1)) / 2
+    measured = TextWidths()
+    for digits in DIGITS:
+        rows = [
+            [str(item.number), *_cells(context, item, *digits), minus(item.solution.assembly_mode)] for item in ghosts
+        ]
+        wide = [
+            max(measured(head, TEXT), *(measured(cell, CELL) for cell in column)) / POINTS
+            for head, column in zip(heads, zip(*rows, strict=True), strict=True)
+        ]
+        free = (width - 4.0 - sum(wide)) / len(heads)
+        if free >= APART:
+            break
+    free = min(free, ROOMY)
+    left = (width - sum(wide) - free * (len(heads) - 1)) / 2
+    middles = [left + sum(wide[:k]) + k * free + wide[k] / 2 for k in range(len(heads))]
     top = height - 3.0
-    for k, head in enumerate(heads):
-        page.text(((left + k * step) * POINTS, top * POINTS), head, fontsize=TEXT)
-    ends = np.array([[left - 0.4 * step, top - 2.4], [left + (len(heads) - 0.55) * step, top - 2.4]])
-    page.line(ends * POINTS, 0.5)
-    for row, ghost in enumerate(ghosts):
-        cells = [str(ghost.number), *_cells(context, ghost), minus(ghost.solution.assembly_mode)]
-        for k, cell in enumerate(cells):
-            place = ((left + k * step) * POINTS, (top - 5.0 - 4.2 * row) * POINTS)
-            page.text(place, cell, fontsize=SMALL + 0.5, color=ghost.colour)
+    for middle, head in zip(middles, heads, strict=True):
+        page.text((middle * POINTS, top * POINTS), head, fontsize=TEXT)
+    page.line(np.array([[left - 2.0, top - 2.4], [width - left + 2.0, top - 2.4]]) * POINTS, 0.5)
+    for number, (ghost, row) in enumerate(zip(ghosts, rows, strict=True)):
+        for middle, cell in zip(middles, row, strict=True):
+            place = (middle * POINTS, (top - 5.0 - 4.2 * number) * POINTS)
+            page.text(place, cell, fontsize=CELL, color=ghost.colour)
 
 
-def _cells(context: Context, ghost: Ghost) -> list[str]:
-    shown = pose_at_border(context.record, ghost.solution.pose).tolist()
-    return [minus(f"{round(value, 4) + 0.0:.4f}") for value in shown]
+def _cells(context: Context, ghost: Ghost, digits: int, of_quaternions: int) -> list[str]:
+    shown = zip(context.record.platform.pose, pose_at_border(context.record, ghost.solution.pose).tolist(), strict=True)
+    kept = [(value, of_quaternions if name in QUATERNION else digits) for name, value in shown]
+    return [minus(f"{round(value, places) + 0.0:.{places}f}") for value, places in kept]
 
 
 def _head(context: Context, name: str) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
 from assur.figures.letters import letter, mathematics, numeral, words
+from assur.figures.page import legend_above
 from assur.figures.placing import Letters
 from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind, always
@@ -55,8 +56,8 @@ def _draw(context: Context) -> Drawing:
     _name_joints(view, skeleton, letters)
     _name_links(context, view, skeleton, letters)
     _number_loops(context, page, view, skeleton, letters)
-    _legend(context, page, letters)
     letters.place()
+    legend_above(page.figure, _legend(context))
     return Drawing(page.figure, _data(context, skeleton))
 
 
@@ -124,18 +125,14 @@ def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton
         letters.avoid_disc(centre, 6.0)
 
 
-def _legend(context: Context, page: Canvas, letters: Letters) -> None:
+def _legend(context: Context) -> list[Line2D]:
     order = list(context.schematic.chains)
     names = context.companion.chains or {name: f"limb {numeral(order.index(name) + 1)}" for name in order}
-    lines = [Line2D([], [], color=CHAINS[order.index(name) % len(CHAINS)], linewidth=2) for name in names]
-    if lines:
-        width, height = page.axes.get_xlim()[1], page.axes.get_ylim()[1]
-        longest = max(len(text) for text in names.values())
-        columns = min(len(lines), max(1, int(width / (SMALL * (5.0 + 0.5 * longest)))))
-        rows = -(-len(lines) // columns)
-        columns = -(-len(lines) // rows)
-        page.axes.legend(lines, list(names.values()), loc="upper center", ncols=columns, fontsize=SMALL)
-        letters.avoid_box(np.array([[0.0, height - 1.5 * SMALL * rows], [width, height]]))
+    colours = [CHAINS[order.index(name) % len(CHAINS)] for name in names]
+    return [
+        Line2D([], [], color=colour, linewidth=2, label=text)
+        for colour, text in zip(colours, names.values(), strict=True)
+    ]
 
 
 def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
