@@ -7,6 +7,7 @@ import pytest
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.force_maps import FORCE_MAPS
 from assur.figures.force_polytope import FORCE_POLYTOPE
 from assur.kinematics.pose import pose_of
 from assur.machine.forces.capacity import capacity
@@ -33,3 +34,4 @@ def test_without_limits_of_the_actuators_there_is_none():
 def test_forces_along_one_direction_span_none():
     context = figures.Context(assur.load("three_rps"))  # of the translations only that along z is a coordinate
     assert "along one direction" in FORCE_POLYTOPE.missing(context)
+    assert FORCE_MAPS.missing(context) == ""  # which tell what is held along it

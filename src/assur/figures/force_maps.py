@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from assur.figures.context import Context
-from assur.figures.force_polytope import FORCE_POLYTOPE
+from assur.figures.force_polytope import no_capacity
 from assur.figures.index_maps import drawn
 from assur.figures.plane_map import plane_of_lengths
 from assur.figures.plots import mode_words, no_workspace
-from assur.figures.spec import FigureKind
+from assur.figures.spec import Drawing, FigureKind
 from assur.machine.forces.capacity_maps import MOST, capacity_maps, tops
 from assur.machine.masses.link_masses import masses
 from assur.workspace.index_maps import IndexMaps
@@ -18,7 +18,7 @@ NODES = 32
 
 
 def _missing(context: Context) -> str:
-    return FORCE_POLYTOPE.missing(context) or no_workspace(context)
+    return no_capacity(context) or no_workspace(context)
 
 
 def whole(context: Context) -> IndexMaps:
@@ -39,10 +39,17 @@ def _caption(context: Context) -> str:
     )
 
 
+def _draw(context: Context) -> Drawing:
+    maps = whole(context)
+    return drawn(
+        context, maps, tops(maps), spent=("gravity", [name for name, item in maps.maps.items() if item.unit == "N"])
+    )
+
+
 FORCE_MAPS = FigureKind(
     "forces",
     "Forces over one plane",
     _missing,
     _caption,
-    lambda context: drawn(context, whole(context), tops(whole(context))),
+    _draw,
 )

@@ -23,13 +23,18 @@ SHOWN = 1e-6
 """Cosine by which faces must differ for the edge between them to be drawn."""
 
 
-def _missing(context: Context) -> str:
+def no_capacity(context: Context) -> str:
+    """Why a mechanism has no figures of what its actuators hold; empty where it has."""
     if no_masses(context):
         return no_masses(context)
     unknown = np.isnan(stated(context.record, "force"))
     names = [item.name for item, none in zip(context.record.drives, unknown, strict=True) if none]
-    if names:
-        return f"the mechanism's file says no largest force of {', '.join(names)}"
+    return f"the mechanism's file says no largest force of {', '.join(names)}" if names else ""
+
+
+def _missing(context: Context) -> str:
+    if no_capacity(context):
+        return no_capacity(context)
     if len(held(context).axes) < 2:
         return "forces along one direction span no polytope; the figure forces maps what is held along it"
     return "" if len(held(context).vertices) else "the actuators do not bound the forces that are held"

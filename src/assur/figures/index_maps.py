@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.colors import Normalize
@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.figures.context import Context
+from assur.figures.contours import continued
 from assur.figures.plane_map import SHOWN, MappedPlane, beyond, coloured, panels, plane_of_lengths, scale_of, with_bar
-from assur.figures.plots import mode_words, no_workspace
+from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.written import units
 from assur.performance.indices import INDICES
@@ -33,11 +34,17 @@ def whole(context: Context) -> IndexMaps:
 
 
 def drawn(
-    context: Context, maps: IndexMaps, tops: Mapping[str, float] | None = None, *, by_decades: bool = False
+    context: Context,
+    maps: IndexMaps,
+    tops: Mapping[str, float] | None = None,
+    *,
+    by_decades: bool = False,
+    spent: tuple[str, Sequence[str]] = ("", ()),
 ) -> Drawing:
     """Every index over two coordinates of the workspace of a context; `tops` are where colours of some end.
 
-    By decades are those of indices that grow without bound, or of all.
+    By decades are those of indices that grow without bound, or of all. `spent` is the map of a share, and those that
+    fall to 0 where it passes 1: they jump there, along that contour and not from node to node.
 
     Errors:
         UsageError: maps of one or of three coordinates.
@@ -54,7 +61,12 @@ def drawn(
         unbounded = by_decades or (index is not None and index.unbounded)
         colours = Normalize(0.0, top or 1.0) if top is not None else scale_of(known, unbounded=unbounded)
         values = np.where(np.isinf(item.values), float(colours.vmax or np.nan) if len(known) else np.nan, item.values)
-        image = coloured(pair[0], plane, values.T, colours)
+        share = maps.maps[spent[0]].values if name in spent[1] else np.zeros_like(values)
+        some = np.any(share > 1.0) and np.any(share <= 1.0)
+        image = coloured(pair[0], plane, np.where(share > 1.0, np.nan, values).T if some else values.T, colours)
+        if some and image is not None:
+            past = pair[0].contourf(xs, ys, continued(share).T, levels=[1.0, np.inf], colors=[image.cmap(0)], zorder=2)
+            past.set_clip_path(outline(plane.polygons), pair[0].transData)
         with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), item.values))
     return Drawing(figure, plain(maps.answer()))
 

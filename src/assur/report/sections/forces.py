@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from assur.errors import UsageError
-from assur.figures.force_polytope import FORCE_POLYTOPE, held
+from assur.figures.force_polytope import held, no_capacity
 from assur.figures.joint_forces import joint_forces
 from assur.kinematics.status import Status
 from assur.machine.forces.actuator_forces import ActuatorForces, force_units, forces_at
@@ -85,7 +85,7 @@ def _share(value: float) -> str | None:
 
 
 def _capacity(findings: Findings) -> Iterator[Scalar]:
-    if not FORCE_POLYTOPE.missing(findings):
+    if not no_capacity(findings):
         own = held(findings)
         note = f"within the limits of the actuators, gravity included; then {own.limiting} is at its limit"
         yield Scalar("force that is held in every direction", own.sphere, "N", FLOATING, note=note)
