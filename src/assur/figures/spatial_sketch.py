@@ -57,16 +57,6 @@ class SketchedJoint:
     driven: bool
 
     @property
-    def slides(self) -> bool:
-        """Whether its links slide along one another on a line."""
-        return self.joint.type.slides == 1
-
-    @property
-    def flat(self) -> bool:
-        """Whether they slide on a plane, whose normal is its first axis."""
-        return self.joint.type.slides == 2
-
-    @property
     def axes(self) -> FloatArray:
         """What its steps go along, as at home."""
         own: dict[int, FloatArray] = {}
@@ -182,7 +172,7 @@ def _link(page: Canvas, view: View, points: FloatArray, colour: str, letters: Le
 def _ground(page: Canvas, view: View, mark: SketchedJoint, letters: Letters) -> None:
     """A hatched rail under a joint that slides on the base, a support under another one."""
     at = view(mark.shown)
-    if not mark.slides:
+    if mark.joint.type.slides != 1:
         ground_pivot(page, at, 1.5)
         letters.avoid_disc(at - [0.0, 8.0], 10.0)
         return

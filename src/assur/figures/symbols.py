@@ -49,14 +49,6 @@ class DrawnJoint(Protocol):
     def driven(self) -> bool:
         """Whether it is actuated."""
 
-    @property
-    def slides(self) -> bool:
-        """Whether its links slide along one another on a line."""
-
-    @property
-    def flat(self) -> bool:
-        """Whether they slide on a plane, whose normal is its first axis."""
-
 
 def joint_symbol(page: Canvas, view: View, mark: DrawnJoint, order: float, size: float = 1.0) -> FloatArray:
     """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
@@ -70,10 +62,10 @@ def joint_symbol(page: Canvas, view: View, mark: DrawnJoint, order: float, size:
         corners = box(at, direction(view, mark.axes[0]), size * SLIDER)
         page.polygon(corners, fill, order=order)
         return corners
-    if mark.flat:
+    if mark.joint.type.slides == 2:  # on a plane, whose normal is the first axis
         return _plane(page, view, mark, fill, order, size)
     drawn = [_turning(page, view, at, axis, fill, order, size) for axis in mark.axes]
-    if mark.slides:
+    if mark.joint.type.slides:
         page.polygon(box(at, direction(view, mark.axes[0]), size * SLIDER * [1.2, 0.9]), fill, order=order)
         page.disc(at, 0.6 * size * RADIUS, PAPER, order=order)
     return np.concatenate(drawn)
