@@ -9,6 +9,7 @@ from matplotlib.colors import to_hex
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.letters import dimension
 from assur.figures.page import HIGHEST
 from assur.figures.style import MILLIMETRE
 from assur.machine.elasticity.stiffness import stiffness_at
@@ -37,6 +38,8 @@ def test_the_darkest_link_is_strained_most(drawn):
     figure, data = (getattr(figures.drawing(drawn.record, "stiffness", drawn), part) for part in ("figure", "data"))
     bars = figure.axes[1]
     names = [label.get_text() for label in bars.get_yticklabels()]
+    printed = {dimension(name): name for name in [*data["links"], "actuators"]}
+    names = [printed[name] for name in names]
     assert names[0] == max(data["links"], key=data["links"].get) == "link12"
     assert [bar.get_width() for bar in bars.patches] == pytest.approx([100 * data["links"][name] for name in names])
     assert sum(line.get_color() == "#800026" for line in figure.axes[0].lines) == 1
@@ -86,6 +89,7 @@ def test_of_a_drafted_machine_they_are_drawn_on_the_page_in_colours_of_its_links
     machine, bars = whole.figure.axes[:2]
     shown = {line.get_color() for line in machine.lines} | {to_hex(face.get_edgecolor()) for face in machine.patches}
     named = zip((label.get_text() for label in bars.get_yticklabels()), bars.patches, strict=True)
-    coloured = [to_hex(bar.get_facecolor()) for link, bar in named if link in record.links]
+    links = {dimension(link) for link in record.links}
+    coloured = [to_hex(bar.get_facecolor()) for text, bar in named if text in links]
     assert len(coloured) > 2
     assert set(coloured) <= shown
