@@ -108,6 +108,8 @@ def _known(record: MechanismRecord, problem: Problem, given: FloatArray, crossed
     if pair and (merged := _with_pair(pair, problem, given, crossed)):
         return merged
     turn = turn or solve_by_loops(record, **asked, crossed=crossed)
+    if turn.complete:
+        return turn
     return replace(turn, right=f"{turn.right}; {_why(own)}")
 
 

@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.joint_graph.frames import frames
 from assur.kinematics.home import home_values
-from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError
+from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError, Stiff
 from assur.kinematics.loops.orientations import turnings
 from assur.model.registry import load_record
 from assur.numerics import rotations
@@ -69,7 +69,9 @@ def test_parallelograms_of_ball_joints_keep_the_platform_from_turning() -> None:
 def test_a_platform_on_three_ball_joints_is_known_by_their_centres() -> None:
     (found,) = turnings(load_record("three_rps"), _locked("three_rps"), None, parallel=())
     assert (found["platform"].triangle, found["platform"].circle) == (0, None)
-    (held,) = turnings(load_record("three_rps"), _locked("three_rps"), np.eye(3), parallel=())
+    (held,) = turnings(
+        load_record("three_rps"), _locked("three_rps"), Stiff("base", "platform", np.eye(3)), parallel=()
+    )
     assert held["platform"].corners is None
 
 
@@ -88,7 +90,9 @@ def test_a_link_between_two_axes_is_refused_by_name() -> None:
 def test_a_tilted_platform_contradicts_its_joints() -> None:
     tilted = rotations.about_axis(np.array([1.0, 0.0, 0.0]), np.asarray(0.1))
     with pytest.raises(NoAssemblyError):
-        turnings(load_record("zeng2019"), {}, tilted, parallel=BOTH)
+        turnings(
+            load_record("zeng2019"), {}, Stiff("base", load_record("zeng2019").platform.link, tilted), parallel=BOTH
+        )
 
 
 def _bennett(first: float) -> tuple[str, float]:

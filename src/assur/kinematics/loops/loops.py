@@ -19,7 +19,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.limbs.solving import LimbSolutions
 from assur.kinematics.loops.alike import alike_merged
 from assur.kinematics.loops.circles import System, joint_values, system
-from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError, middle
+from assur.kinematics.loops.hinges import HingeTurn, NoAssemblyError, NotCirclesError, Stiff, middle
 from assur.kinematics.loops.orientations import Turning, turnings
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
 from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
@@ -125,26 +125,33 @@ class PositionQuestion:
         return {name: float(value) for name, value in named if name in LENGTHS}
 
     @cached_property
-    def orientations(self) -> list[FloatArray] | list[None]:
-        """Of the platform (3, 3), all in which the pose lets it stand; None where it gives no angle."""
-        if self.problem == "direct":
-            return [None]
-        named = dict(zip(self.record.platform.pose, self.given, strict=True))
+    def orientations(self) -> Sequence[Stiff | HingeTurn | None]:
+        """All in which the pose lets the platform stand; None where it gives no angle.
+
+        Where it leaves one angle open, the platform turns about one direction: R = Rot(axis, angle) after.
+        """
+        platform = self.record.platform
+        named = dict(zip(platform.pose, self.given, strict=True)) if self.problem == "inverse" else {}
         if not named.keys() & {*ANGLES, *QUATERNION}:
             return [None]
-        if has_quaternion(self.record.platform.pose):
-            return [rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))]
+        links = self.record.base, platform.link
+        if has_quaternion(platform.pose):
+            return [Stiff(*links, rotations.from_quaternion(np.array([named[name] for name in QUATERNION])))]
         if named.keys().isdisjoint(ANGLES[1:]) and _upright(self.record):
             first = [named["phi"] - rotations.to_angles(way)[0] for way in _upright(self.record)]
             upright = zip(first, _upright(self.record), strict=True)
-            return [rotations.from_angles(phi, np.zeros(()), np.zeros(())) @ way for phi, way in upright]
-        return [rotations.from_angles(*(np.asarray(named.get(name, 0.0)) for name in ANGLES))]
+            return [Stiff(*links, rotations.from_angles(phi, np.zeros(()), np.zeros(())) @ way) for phi, way in upright]
+        phi, theta, psi = (np.asarray(named.get(name, 0.0)) for name in ANGLES)
+        after = rotations.from_angles(phi, theta, psi)
+        axes = {"phi": (0.0, 0.0, 1.0), "theta": (-np.sin(phi), np.cos(phi), 0.0), "psi": after[:, 0]}
+        left = [np.asarray(axes[name]) for name in ANGLES if name not in named]
+        return [HingeTurn(*links, after, left[0]) if len(left) == 1 else Stiff(*links, after)]
 
     @property
     def tilt_open(self) -> bool:
-        """Whether the pose leaves angles of the platform open, which are taken as zero, and so do the joints."""
-        open_angles = 0 < len({*ANGLES} & {*self.record.platform.pose}) < len(ANGLES)
-        return self.problem == "inverse" and open_angles and not _upright(self.record)
+        """Whether the pose leaves two angles of the platform open, which are taken as zero, and so do the joints."""
+        named = len({*ANGLES} & {*self.record.platform.pose})
+        return self.problem == "inverse" and named == 1 and not _upright(self.record)
 
     def closed(self, starts: FloatArray) -> FloatArray:
         """The starts (N, n) that are assemblies, each once, closed to rounding."""

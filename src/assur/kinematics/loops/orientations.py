@@ -63,7 +63,7 @@ class Turning:
 def turnings(
     record: MechanismRecord,
     locked: Mapping[int, float],
-    platform: FloatArray | None,
+    platform: Stiff | HingeTurn | None,
     *,
     parallel: Collection[str],
     alike: Sequence[Stiff] = (),
@@ -73,7 +73,7 @@ def turnings(
     Args:
         record: the mechanism.
         locked: index in the joint values -> value.
-        platform: (3, 3) its orientation where it is held.
+        platform: its orientation in the base where that is held, or may turn about one direction.
         parallel: parallelograms that stay such; others are no more than their four joints.
         alike: links that are known not to turn against each other.
 
@@ -87,7 +87,7 @@ def turnings(
     """
     joints = [*turns_of_joints(record, locked), *turns_of_parallelograms(record, parallel), *alike]
     if platform is not None:
-        joints.append(Stiff(record.base, record.platform.link, platform))
+        joints.append(platform)
     return [_turnings(record, parallel, way) for way in _stiffened(record.base, joints)]
 
 
