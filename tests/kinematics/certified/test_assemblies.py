@@ -75,13 +75,26 @@ def test_a_mechanism_without_a_closed_form_is_proved_on_its_joint_graph(tmp_path
     assert holds(certified_inverse(record, pose), own.inverse(pose), "inverse")
 
 
-@pytest.mark.slow
-def test_rods_that_spin_are_undecided(balls):
-    given = inputs_of(balls, balls.home_values)
-    found = certified_direct(balls, given)
-    assert len(found) == 0
-    assert found.undecided
-    assert "turn about themselves" in found.undecided[0].meaning
+def test_rods_that_spin_are_held(balls):
+    """A Delta robot with a ball at both ends of each rod: the same two platforms as its closed form proves."""
+    given = np.add(inputs_of(balls, balls.home_values), [0.01, 0.02, 0.03])
+    found = certified_direct(balls, given, "joint graph")
+    assert len(found) == 2
+    assert not found.undecided
+    assert all("6 rods held that may spin" in item.how and item.left == 0 for item in found)
+    assert holds(found, balls.direct(given), "direct")
+
+
+@pytest.mark.parametrize(("name", "count"), [("linear_delta_4s", 2), ("h4_robot", 4)])
+def test_rods_on_balls_are_proved_where_the_closed_form_proves_them(name, count):
+    """All unknown joints of a linear Delta robot are balls: its two platforms alone tell its assemblies apart."""
+    record = assur.load(name)
+    given = inputs_of(record, record.home_values) * np.linspace(1.01, 1.03, len(record.inputs))
+    one, other = certified_direct(record, given), certified_direct(record, given, "joint graph")
+    assert len(one) == len(other) == count
+    for item in one:
+        held = [np.all((item.pose.low <= own.pose.high) & (own.pose.low <= item.pose.high)) for own in other]
+        assert sum(held) == 1
 
 
 def test_an_assembly_at_a_singularity_is_undecided():

@@ -3,13 +3,14 @@
 As many independent equations of the loops are taken as joint values are unknown. Where there are no more equations than
 that, or the rest are zero for every configuration (as across the plane of a planar loop), the assembly is proved. In an
 overconstrained mechanism the rest hold by special dimensions, which floats only have to some digits: then a zero of the
-independent equations alone is proved, and the answer says so, and what the others come to there at most.
+independent equations alone is proved, and the answer says so, and what the others come to there at most. A rod that may
+spin between its ball joints is held where it is: an assembly is proved with it, and all that differ by its spin alike.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -27,11 +28,13 @@ from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedS
 from assur.kinematics.closure import closing_system
 from assur.kinematics.configurations import distinct
 from assur.kinematics.modes import Method, Problem
+from assur.kinematics.rates.motions import general, motions
 from assur.kinematics.turns import in_one_turn, periodic
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import ANGLES, LENGTHS
 from assur.numerics import rotations
 from assur.numerics.intervals.interval import Interval, as_interval
-from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
+from assur.numerics.krawczyk import Equations, derivative, image, parts, proves, stacked
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -47,12 +50,16 @@ SINGULAR, TWICE = "singular, or joints that turn about themselves", "one assembl
 
 @dataclass(frozen=True, eq=False)
 class _Assemblies:
-    """The loops, and the pose if it is given, near K assemblies; unknown are the joint values that are not given."""
+    """The loops, and the pose if it is given, near K assemblies; unknown are the joint values that are not given.
+
+    `spins` (K, s, n) are rates of the unknowns at which rods spin: more equations say that they do not.
+    """
 
     record: MechanismRecord
     problem: Problem
     given: FloatArray
     near: FloatArray
+    spins: FloatArray
 
     @property
     def asked(self) -> Interval:
@@ -74,7 +81,19 @@ class _Assemblies:
 
     def of(self, rows: NDArray[np.intp]) -> _Assemblies:
         """Some of them."""
-        return _Assemblies(self.record, self.problem, self.given, self.near[rows])
+        return replace(self, near=self.near[rows], spins=self.spins[rows])
+
+    def spinning(self) -> _Assemblies:
+        """The same with the spins of rods, as many as turn while inputs and platform stand; none where more moves."""
+        count = int(general(self.record).internal)
+        if not count or not len(self.near):
+            return self
+        rows = len(self.evaluated([as_interval(value) for value in self.centre().T])[0])
+        slopes = derivative(self.equations([*range(rows)]), Interval.of(self.centre())).middle * self.scale()
+        _, sizes, right = np.linalg.svd(slopes)
+        regular = np.sum(sizes > DEPENDENT * sizes[:, :1], axis=1) == len(self.unknown) - count
+        regular &= motions(self.record, self.near).ranks.internal == count
+        return replace(self, spins=np.where(regular[:, None, None], right[:, -count:] / self.scale(), 0.0))
 
     def centre(self) -> FloatArray:
         """Where the unknowns (K, n) are thought to be; those of a ball joint count from there."""
@@ -101,7 +120,14 @@ class _Assemblies:
         if self.problem == "inverse":
             own, more = pose_rows(self.record.platform.pose, configuration.platform, self.asked)
             rows, positive = rows + own, positive + more
-        return rows, positive, configuration.platform
+        return [*rows, *self._spun(numbers)], positive, configuration.platform
+
+    def _spun(self, numbers: Sequence[Any]) -> Iterator[Any]:
+        """How far rods have spun, in the measure of `spins`."""
+        middle = self.centre()
+        for spin in np.moveaxis(self.spins, 1, 0):
+            turning = np.flatnonzero(np.any(np.abs(spin) > TINY, axis=0)).tolist()
+            yield sum((as_interval(spin[:, k]) * (numbers[k] - middle[:, k]) for k in turning), as_interval(0.0))
 
     def equations(self, chosen: list[int]) -> Equations:
         """Some of the equations alone."""
@@ -115,7 +141,10 @@ class _Assemblies:
 
 @dataclass(frozen=True, eq=False)
 class _Proof:
-    """A solution with middles and widths (t,) of bounds of joint values, and which of these are angles."""
+    """A solution with middles and widths (t,) of bounds of joint values and the pose, and which of these are angles.
+
+    Where all unknown joints are balls, the pose alone tells it from others.
+    """
 
     solution: ProvedSolution
     middle: FloatArray
@@ -152,7 +181,8 @@ def certified_assemblies(
     rows = np.flatnonzero(answer.exists)
     if len(rows):  # a configuration that was found twice counts once
         rows = rows[distinct(record, in_one_turn(record, answer.joints[rows]))]
-    every = _Assemblies(record, problem, given, answer.joints[rows])
+    near = answer.joints[rows]
+    every = _Assemblies(record, problem, given, near, np.zeros((len(near), 0, 0))).spinning()
     solutions: dict[int, _Proof] = {}
     tried: list[list[int]] = []
     for k in range(len(rows)):
@@ -198,9 +228,13 @@ def _proved(
             sure &= as_interval(value).positive
         rest = [as_interval(value) for k, value in enumerate(values) if k not in chosen and type(value) is not int]
         left = float(max((np.max(value.magnitude) for value in rest), default=0.0))
-        how = _how(near.record, len(chosen), len(rest), left)
+        spins = every.spins.shape[1]
+        how = _how(near.record, len(chosen) - spins, len(rest), left, spins)
         bounds = _bounds(near, narrow, platform)
         told, turning = near.told
+        pose = near.record.platform.pose  # a quaternion and its negative are one orientation
+        compared = [k for k, name in enumerate(pose) if name in (*LENGTHS, *ANGLES)]
+        turning = np.concatenate([turning, [pose[k] in ANGLES for k in compared]])
         for j in np.flatnonzero(sure):
             row = rows[proved[j]]
             mode, other = str(answer.labels[row]), str(answer.other_labels[row])
@@ -208,13 +242,17 @@ def _proved(
             given, own = near.asked, bounds[j]
             pair = (own, given) if near.problem == "direct" else (given, own)
             solution = ProvedSolution(*pair, *names, how, left)
-            found[int(proved[j])] = _Proof(solution, narrow.middle[j, told], narrow.width[j, told], turning)
+            placed = solution.pose[compared]
+            middle = np.concatenate([narrow.middle[j, told], placed.middle])
+            width = np.concatenate([narrow.width[j, told], placed.width])
+            found[int(proved[j])] = _Proof(solution, middle, width, turning)
     return found
 
 
-def _how(record: MechanismRecord, count: int, more: int, left: float) -> str:
+def _how(record: MechanismRecord, count: int, more: int, left: float, spins: int) -> str:
     """By what assemblies are proved, and what the equations that are no part of the proof come to."""
     how = f"Krawczyk on {count} independent equations of the loops"
+    how += f", {spins} rods held that may spin between their ball joints" if spins else ""
     return f"{how}; {more} dependent ones hold to {at_most(left)} ({record.unit} or rad), unproved" if left else how
 
 
@@ -223,6 +261,9 @@ def _independent(every: _Assemblies, k: int) -> list[int] | None:
     poses = every.given[None] if every.problem == "inverse" else None
     slopes = closing_system(every.record, every.near[[k]], poses)[1][0][:, every.unknown] * every.scale()
     left = slopes / np.max(np.abs(slopes), initial=TINY)
+    if every.spins.size:
+        spins = every.spins[k] * every.scale()
+        left = np.concatenate([left, spins / np.max(np.abs(spins), initial=TINY)])
     chosen: list[int] = []
     for _ in range(slopes.shape[1]):
         size = np.linalg.norm(left, axis=1)
