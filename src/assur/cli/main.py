@@ -5,6 +5,7 @@ What reads and runs it is loaded inside, where Ctrl-C is watched for already.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import gc
 import os
@@ -37,6 +38,7 @@ def main(words: Sequence[str] | None = None) -> int:
         os.environ.setdefault(*PLUGINS)
         gc.set_threshold(OBJECTS)
         words = sys.argv[1:]
+        atexit.register(gc.freeze)  # what is left at the end is not looked through for cycles: 8 % of that command
     debug, json = "--debug" in words, "--json" in words
     with interruption.watched():
         try:
