@@ -60,6 +60,25 @@ def test_solutions_that_meet_are_found_by_the_end_game_and_called_singular(order
     assert nearest(values(ends)[ends.end == PathEnd.regular], [2.0, -1.0]) < 1e-9
 
 
+def test_where_all_ends_should_be_regular_one_that_is_singular_is_enough():
+    system, starts = from_roots_of_unity(np.polynomial.polynomial.polyfromroots([0.5] * 3 + [2.0] * 3 + [-1.0]))
+    whole, ends = solve(system, starts), solve(system, starts, all_regular=True)
+    assert np.sum(whole.end == PathEnd.singular) == 6
+    assert np.sum(ends.end == PathEnd.singular) <= 4 < np.sum(ends.end != PathEnd.regular)
+    assert np.any(ends.end == PathEnd.singular)
+    regular = whole.end == PathEnd.regular
+    np.testing.assert_array_equal(ends.end == PathEnd.regular, regular)
+    np.testing.assert_array_equal(ends.x[regular], whole.x[regular])
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_where_all_ends_are_regular_nothing_is_left_out(seed):
+    problem = from_roots_of_unity(np.random.default_rng(seed).normal(size=6))
+    whole, ends = solve(*problem), solve(*problem, all_regular=True)
+    np.testing.assert_array_equal(ends.end, whole.end)
+    np.testing.assert_array_equal(ends.x, whole.x)
+
+
 def test_a_solution_at_infinity_is_a_point_as_any_other():
     ends = solve(*from_roots_of_unity([-6.0, 11.0, -6.0, 1.0, 0.0]))
     assert np.all(ends.end == PathEnd.regular)

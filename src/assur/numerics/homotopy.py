@@ -33,6 +33,10 @@ REGULAR = 1e-9
 """Smallest `rank_gap` of a regular end."""
 SAME = 1e-6
 """Points of length 1 whose distance is smaller are one solution."""
+PROBED = 4
+"""Ends that are not regular whose limits are looked for first where all should be: one that settles is enough."""
+ARC = 0.5
+"""First step on an arc of the end game, as a share of it: half of an arc at a root of t errs by less than `CLOSE`."""
 
 
 class PathEnd(IntEnum):
@@ -61,12 +65,17 @@ class PathEnds:
 
 
 def solve(
-    system: ExpandedSystem, starts: ComplexArray, useless: Callable[[ComplexArray], BoolArray] | None = None
+    system: ExpandedSystem,
+    starts: ComplexArray,
+    useless: Callable[[ComplexArray], BoolArray] | None = None,
+    *,
+    all_regular: bool = False,
 ) -> PathEnds:
     """Follow every start (K, n), a solution at t = 1, to t = 0 in each of P problems: ends (P K), problem by problem.
 
     Paths that were lost, or came together at a regular end, where two cannot, are followed again with smaller steps;
-    not so those that were lost at points (N, n) which are `useless`: they have ended there.
+    not so those that were lost at points (N, n) which are `useless`: they have ended there. With `all_regular` one end
+    that is singular is enough, and what the others are that are not regular is not asked: they are lost.
 
     Example: the square roots of -4 and of 9, from those of 1.
 
@@ -80,7 +89,9 @@ def solve(
     count = len(system.coefficients)
     problem = np.repeat(np.arange(count), len(starts))
     first = np.tile(starts, (count, 1))
-    ends = follow(system, first, problem)
+    ends = follow(system, first, problem, all_regular=all_regular)
+    if all_regular and np.any(ends.end == PathEnd.singular):
+        return ends
     if useless is not None:
         near = np.flatnonzero((ends.end == PathEnd.lost) & ends.near)
         ends.end[near[useless(ends.x[near])]] = PathEnd.singular
@@ -92,10 +103,13 @@ def solve(
     return ends
 
 
-def follow(system: ExpandedSystem, x: ComplexArray, problem: IndexArray, *, close: float = CLOSE) -> PathEnds:
+def follow(
+    system: ExpandedSystem, x: ComplexArray, problem: IndexArray, *, close: float = CLOSE, all_regular: bool = False
+) -> PathEnds:
     """Follow solutions x (N, n) of problems (N,) from t = 1 to t = 0.
 
-    An end is regular where the Jacobian has full rank, singular where the end game finds a limit, else lost.
+    An end is regular where the Jacobian has full rank, singular where the end game finds a limit, else lost. With
+    `all_regular` it is played no more once a limit is known.
     """
     count = len(x)
     edge = np.full(count, RADII[0])
@@ -106,9 +120,10 @@ def follow(system: ExpandedSystem, x: ComplexArray, problem: IndexArray, *, clos
     end = np.where(regular, PathEnd.regular, PathEnd.lost).astype(np.int8)
     last[~regular], near = before[~regular], regular.copy()
     rest = np.flatnonzero(arrived & ~regular)
-    if len(rest):
-        last[rest], settled, near[rest] = _end_game(system, before[rest], problem[rest], close)
-        end[rest[settled]] = PathEnd.singular
+    for rows in (rest[:PROBED], rest[PROBED:]) if all_regular else (rest,):
+        if len(rows) and not (all_regular and np.any(end == PathEnd.singular)):
+            last[rows], settled, near[rows] = _end_game(system, before[rows], problem[rows], close)
+            end[rows[settled]] = PathEnd.singular
     return PathEnds(last, end, near, steps + more)
 
 
@@ -183,7 +198,7 @@ def _limits(
         for first, last in itertools.pairwise(corners):
             total[rows] += points[rows] / np.sum(reference[rows] * points[rows], axis=1, keepdims=True)
             ways = np.full(len(rows), first), np.full(len(rows), last)
-            points[rows], arrived, _ = along(system, points[rows], problem[rows], *ways, close)
+            points[rows], arrived, _ = along(system, points[rows], problem[rows], *ways, close, ARC)
             rows = rows[arrived]
         back = _distance(points[rows], x[rows]) < SAME
         limit[rows[back]] = total[rows[back]] / (CORNERS * circle)

@@ -34,10 +34,12 @@ def along(
     start: NDArray[np.inexact],
     stop: NDArray[np.inexact],
     close: float,
+    first: float = FIRST_STEP,
 ) -> tuple[ComplexArray, BoolArray, int]:
     """Follow solutions x (N, n) of problems (N,) from t = start to t = stop (N,) on straight lines.
 
-    A step whose prediction needs a larger correction than `close`, at length 1, is taken again, shorter.
+    The first step is the share `first` of the way. A step whose prediction needs a larger correction than `close`, at
+    length 1, is taken again, shorter.
 
     Returns:
         The points (N, n), of length 1; whether they arrived (N,); the number of steps of the slowest.
@@ -54,7 +56,7 @@ def along(
     """
     x = x / np.linalg.norm(x, axis=1, keepdims=True)
     span = stop - start
-    done, step = np.zeros(len(x)), np.full(len(x), FIRST_STEP)
+    done, step = np.zeros(len(x)), np.full(len(x), first)
     active = np.arange(len(x))
     steps = 0
     while len(active) and steps < MOST_STEPS:

@@ -22,7 +22,7 @@ ComplexArray = NDArray[np.complex128]
 def followed(forms: ComplexArray) -> Roots:
     """Roots of n quadratic equations (1, x)^T Q_k (1, x) = 0 in n unknowns, forms (n, n + 1, n + 1).
 
-    They are not `isolated` where a path ends where roots meet, or nowhere; the values are those of the others.
+    They are not `isolated` where a path ends where roots meet, or nowhere; the values are some of the others.
 
     >>> forms = np.zeros((2, 3, 3), dtype=complex)
     >>> forms[0, [1, 2, 0], [1, 2, 0]] = 1, 1, -25  # x^2 + y^2 = 25
@@ -47,7 +47,7 @@ def followed(forms: ComplexArray) -> Roots:
     coefficients = np.stack([ends[0], ends[1] - ends[0]])[None]
     system = ExpandedSystem(coefficients, np.stack([rows, columns], axis=1), size)
     signs = np.array(list(product((1.0, -1.0), repeat=size - 1)))
-    found = solve(system, np.concatenate([np.ones((len(signs), 1)), signs * first], axis=1))
+    found = solve(system, np.concatenate([np.ones((len(signs), 1)), signs * first], axis=1), all_regular=True)
     regular = found.end == PathEnd.regular
     x = found.x[regular]
     finite = x[np.abs(x[:, 0]) > AT_INFINITY]
