@@ -15,6 +15,7 @@ from assur.topology.directions import Vector, parallel
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.orientations import Orientations
 from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.shared_lines import shared_line
 from assur.topology.symbolic.spans import NOTHING, Span
 from assur.topology.symbolic.subgroups import axes_through
 
@@ -55,7 +56,10 @@ def resisted(limbs: Sequence[Motion], taken: Orientations) -> Resisted | Refusal
         related = couples if through_one_point else _with_relations(couples, shared, limb, before)
         located = related != couples
         if located and _common_labels(limb, before) and not _one_centre(limb, before):
-            return Refusal("limbs share a point, and where their axes lie decides what they resist")
+            line = shared_line([motion for motion in (*before, limb) if motion.dim < 6], taken)
+            if not (line and shared.dim == 1 and shared.contains(line)):
+                return Refusal("limbs share a point, and where their axes lie decides what they resist")
+            related = couples.with_line(in_plane=line)
         total = Resisted(total.forces.with_span(limb.forces), related, total.located or located)
     return total
 

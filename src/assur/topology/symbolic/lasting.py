@@ -14,7 +14,7 @@ from itertools import combinations
 from assur.topology.directions import parallel
 from assur.topology.symbolic.motion import Motion, seen_from_end
 from assur.topology.symbolic.operation_modes import HeldLimbs, as_written, assembled
-from assur.topology.symbolic.orientations import Orientations, turn_alike
+from assur.topology.symbolic.orientations import EVERY, Orientations, turn_alike
 from assur.topology.symbolic.refusals import Refusal
 
 
@@ -51,8 +51,9 @@ def _not_of_both(assembly: HeldLimbs) -> Refusal | None:
     seen = _from_the_platform(assembly)
     if isinstance(seen, Refusal):
         return seen
-    mixed = [True for pair in zip(assembly.limbs, seen.limbs, strict=True) if _is_of_both(*pair, assembly.taken)]
-    if len(mixed) > 1 or _size(seen) != _size(assembly):
+    mixed = [pair for pair in zip(assembly.limbs, seen.limbs, strict=True) if _is_of_both(*pair, assembly.taken)]
+    alike = assembly.taken != EVERY or any(_force_alike(*pair) for pair in combinations(mixed, 2))
+    if (len(mixed) > 1 and alike) or _size(seen) != _size(assembly):
         return Refusal("directions fixed in the platform decide together with some fixed in the base")
     return None
 
@@ -70,6 +71,18 @@ def _is_of_both(base: Motion, platform: Motion, taken: Orientations) -> bool:
         return False
     lasting = taken.axes and all(parallel(axis, near.fixed[0]) for axis in taken.axes)
     return not (lasting and parallel(near.fixed[0], far.fixed[0]))
+
+
+def _force_alike(first: tuple[Motion, Motion], second: tuple[Motion, Motion]) -> bool:
+    """Whether two limbs of both kinds resist parallel forces, each seen by the base and by the platform.
+
+    One that translates along a of the base and b of the platform resists a force along a x R b. Where the platform
+    takes every orientation R, two of these are parallel only if their a and their b are. Of more, no two of which are,
+    three are independent unless all a or all b are parallel: one R turns b1 into a2, and turns about it until b3 is in
+    no plane with a2 and a3. That is what base and platform see by themselves.
+    """
+    sides = zip(first, second, strict=True)
+    return all(parallel(one.translations.fixed[0], other.translations.fixed[0]) for one, other in sides)
 
 
 def _size(assembly: HeldLimbs) -> tuple[int, int]:
