@@ -34,6 +34,12 @@ class MalformedError(RefusedError):
     """It is no whole certificate."""
 
 
+def require(fine: Any, refusal: str) -> None:
+    """Errors: RefusedError, where it is not fine."""
+    if not fine:
+        raise RefusedError(refusal)
+
+
 def read(data: bytes) -> dict[str, Any]:
     """The certificate as plain data, if it is whole and as it was written."""
     if len(data) > LARGEST:

@@ -77,11 +77,10 @@ class FileAssembly:
         orientations: Sequence[Mapping[str, Any]],
     ) -> None:
         self.graph, self.problem, self.given, self.zero = Graph(mechanism, numbers, names), problem, given, zero
-        self.mechanism, self.sliding = mechanism, dict[str, Any]()
+        self.mechanism, self.sliding, self.orientations = mechanism, dict[str, Any](), orientations
         locked: dict[str, tuple[Any, Any]] = {}
-        for (joint, component), own in zip(mechanism.inputs, mechanism.printed, strict=True):
-            if problem == "inverse":
-                continue
+        inputs = zip(mechanism.inputs, mechanism.printed, strict=True) if problem == "direct" else ()
+        for (joint, component), own in inputs:
             if kind_of(mechanism, joint, component) == "slide":
                 offset = number(own.offset, names, numbers)
                 self.sliding[f"{joint}.{component}"] = times(own.sense, plus(given[own.name], times(-1, offset)))
@@ -113,10 +112,8 @@ class FileAssembly:
                 turn = product(turn, about(axis, self.given[f"cos_{name}"], self.given[f"sin_{name}"]))
         return turn
 
-    def claimed(
-        self, own: Mapping[str, Any], orientations: Sequence[Mapping[str, Any]], vector: Callable[[Any], Vector]
-    ) -> ClaimedTurn:
-        """An orientation as it is written, one of several; its vectors are read."""
+    def claimed(self, own: Mapping[str, Any], vector: Callable[[Any], Vector]) -> ClaimedTurn:
+        """An orientation as it is written; its vectors are read."""
 
         def constant(other: Mapping[str, Any]) -> Matrix:
             a, b, c = map(vector, other["constant"])
@@ -128,13 +125,13 @@ class FileAssembly:
         )
         triangle = None
         if "triangle" in own:
-            leader = next(other for other in orientations if other["link"] == own["triangle"]["link"])
+            leader = next(other for other in self.orientations if other["link"] == own["triangle"]["link"])
             triangle = self._triangle(own["triangle"], constant(leader))
         return ClaimedTurn(own["link"], own["kind"], constant(own), axis, circle, hinge, line, rod, second, triangle)
 
     def _triangle(self, claim: Mapping[str, Any], constant: Matrix) -> Triangle:
         """Balls of a link that is turned by a constant in the frame of its orientation. Errors: RefusedError."""
-        link, names = str(claim["link"]), [str(name) for name in claim["joints"]]
+        link, names = str(claim["link"]), tuple(map(str, claim["joints"]))
         joints = [self.mechanism.joints[name] for name in names]
         if len({*names}) != len(ONE) or not all(link in (own.parent, own.child) for own in joints):
             raise RefusedError(f"{', '.join(names)[:60]} are no three joints of {link[:40]}")
@@ -142,7 +139,7 @@ class FileAssembly:
         sides = tuple(tuple(map(str, side)) for side in claim["sides"])
         if [len(side) for side in sides] != [len(ONE)] * len(ONE):
             raise RefusedError(f"{link[:40]} has three sides of three components")
-        return Triangle((a, b, c), sides)
+        return Triangle(link, names, (a, b, c), sides)
 
     def slides(self) -> list[str]:
         """Lengths that are sought, as "joint.coordinate"."""

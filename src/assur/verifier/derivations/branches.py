@@ -19,7 +19,7 @@ from assur.verifier.derivations.turning import same
 from assur.verifier.field import CircleField, Element, NoRootError, few_digits
 from assur.verifier.formula import AngleSum, plain, value
 from assur.verifier.mechanism import FileMechanism
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import RefusedError, require
 from assur.verifier.vectors import Vector, apply, product, subtract
 
 TRIES = 200
@@ -81,24 +81,20 @@ class _DrawnBranches:
     def closing(self, conditions: Sequence[str]) -> int:
         """How many branches close, of as many as are looked at."""
         roots = list(self._roots_before())
-        looked = 0
-        seen = set[tuple[tuple[int, int], ...]]()
+        seen: list[tuple[tuple[int, int], ...]] = []
         for signs in itertools.islice(itertools.product((1, -1), repeat=len(roots)), MOST):
             values = self._branch(dict(zip(roots, signs, strict=True)))
             self._hold(conditions, values)
             self._closed(values)
-            seen.add(tuple((values[root].a, values[root].b) for root in roots))
-            looked += 1
-        if len(seen) != looked:
-            raise RefusedError("branches that are one")
-        return int(looked * self.problem["branches"] // 2 ** len(roots))
+            seen.append(tuple((values[root].a, values[root].b) for root in roots))
+        require(len({*seen}) == len(seen), "branches that are one")
+        return int(len(seen) * self.problem["branches"] // 2 ** len(roots))
 
     def _hold(self, conditions: Sequence[str], values: Mapping[str, Any]) -> None:
         """Conditions hold at what is drawn, and at every root of the polynomial."""
         for text in conditions:
             own = self._value(text.removesuffix(" != 0"), values)
-            if _zero(own):
-                raise RefusedError("a condition that never holds")
+            require(not _zero(own), "a condition that never holds")
             if isinstance(own, RootNumber):
                 own.inverse()
 
@@ -146,17 +142,15 @@ class _DrawnBranches:
     def _closed(self, values: Mapping[str, Any]) -> None:
         proof = self.problem["proof"]
         for name, text in proof["units"].items():
-            if not _zero(self._value(text, values)):
-                raise RefusedError(f"{name} is not 1 in every branch")
+            require(_zero(self._value(text, values)), f"{name} is not 1 in every branch")
         claims = proof["orientations"]
         read = partial(self._vector, values)
-        turns = {own["link"]: self.assembly.claimed(own, claims, read) for own in claims}
+        turns = {own["link"]: self.assembly.claimed(own, read) for own in claims}
         sliding = {name: values[own] for name, own in proof["sliding"].items()}
         gaps, _ = self.assembly.loops(turns, values, sliding)
         gaps += [own.leaning(values, _zero) for own in turns.values()]
-        if not all(map(_zero, gaps)):
-            raise RefusedError(f"a branch does not close every loop (modulo {self.field.p})")
-        rotations = {link: own.rotation(values) for link, own in turns.items()}
+        require(all(map(_zero, gaps)), f"a branch does not close every loop (modulo {self.field.p})")
+        rotations = {link: own.rotation(values, _zero) for link, own in turns.items()}
         for hop in self.assembly.hops:
             start, end = rotations.get(hop.start), rotations.get(hop.end)
             if start is None or end is None:
@@ -166,8 +160,7 @@ class _DrawnBranches:
                 fits = same(after, end, _zero)
             else:
                 fits = all(map(_zero, subtract(apply(start, hop.axis), apply(end, hop.back.axis or hop.axis))))
-            if not fits:
-                raise RefusedError(f"{hop.start} and {hop.end} are turned as their joint does not let them")
+            require(fits, f"{hop.start} and {hop.end} are turned as their joint does not let them")
 
     def _vector(self, values: Mapping[str, Any], parts: Sequence[str]) -> Vector:
         x, y, z = (self._value(part, values) for part in parts)

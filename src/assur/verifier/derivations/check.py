@@ -24,8 +24,8 @@ from assur.verifier.derivations.terms import Term, WrittenNumbers, divisors, sym
 from assur.verifier.derivations.turning import ClaimedTurn
 from assur.verifier.formula import AngleSum
 from assur.verifier.mechanism import FileMechanism, mechanism
-from assur.verifier.reading import MalformedError, RefusedError, printable
-from assur.verifier.vectors import ONE, dot, subtract
+from assur.verifier.reading import MalformedError, RefusedError, printable, require
+from assur.verifier.vectors import ONE, dot
 
 FORMAT, VERSION = "assur derivation", 1
 
@@ -137,6 +137,7 @@ class _ProblemCheck(KnownFormulas):
         self.circles: set[str] = set()
         claims = self.proof["orientations"]
         self.assembly = FileAssembly(own, self.name, numbers, parameters, given, self.zero, claims)
+        self.orientations = OrientationCheck(self.assembly, self, self.proof)
         graph = self.assembly.graph
         axes = [part for joint in graph.joints.values() for axis in (*joint.axes, *joint.turn) for part in axis]
         self.allowed += divisors(part for part in axes if isinstance(part, Term))  # a direction has a length
@@ -144,34 +145,29 @@ class _ProblemCheck(KnownFormulas):
     def findings(self) -> ProvedProblem:
         """What is proved."""
         self._named()
-        orientations = OrientationCheck(self.assembly, self, self.proof)
-        turns = orientations.turns()
+        turns = self.orientations.turns()
         self._unknowns(turns)
         self._loops(turns)
-        if len(self.problem["sets"]) != len(self.proof["sets"]):
-            raise RefusedError("sets without identities")
+        require(len(self.problem["sets"]) == len(self.proof["sets"]), "sets without identities")
         for given, proved in zip(self.problem["sets"], self.proof["sets"], strict=True):
             self._set(given, proved)
         self._lengths()
-        self._entries(turns)
+        self._results(turns)
         missing = self.unknowns - self.earlier.keys() - self.circles
-        if missing:
-            raise RefusedError(f"nothing says what {', '.join(sorted(missing))} is")
+        require(not missing, f"nothing says what {', '.join(sorted(missing))} is")
         count = math.prod(own["roots"] for own in self.problem["sets"])
-        if self.problem["branches"] != count:
-            raise RefusedError(f"{self.problem['branches']} branches are claimed, {count} follow of the roots")
+        require(self.problem["branches"] == count, f"not as many branches follow of the roots as claimed, but {count}")
         checked = closing_branches(self.mechanism, self.problem, self.conditions)
         assumed = tuple(own.name for own in self.mechanism.parallelograms)
         return ProvedProblem(
-            self.name, count, tuple(self.conditions), assumed, tuple(orientations.ways), checked,
+            self.name, count, tuple(self.conditions), assumed, tuple(self.orientations.ways), checked,
             self.relations.texts, self.unstated,
         )  # fmt: skip
 
     def _named(self) -> None:
         """Formulas of what is given, by names."""
         for name, text in self.proof["named"].items():
-            if name in self.known:
-                raise RefusedError(f"{name} has two formulas")
+            require(name not in self.known, f"{name} has two formulas")
             self.names[name] = self.checked(text)
             self.known[name] = symbol(name)
 
@@ -189,8 +185,7 @@ class _ProblemCheck(KnownFormulas):
                 )
         sliding = dict(self.proof["sliding"])
         names = [name for group in own_ones for name in group] + [*sliding.values()]
-        if len({*names}) != len(names) or {*names} & self.known.keys():
-            raise RefusedError("two unknowns of one name")
+        require(len({*names}) == len(names) and not {*names} & self.known.keys(), "two unknowns of one name")
         if sorted(sliding) != sorted(set(self.assembly.slides())):
             raise RefusedError(f"lengths that slide are {', '.join(self.assembly.slides())}")
         self.known |= {name: symbol(name) for name in names}
@@ -202,15 +197,12 @@ class _ProblemCheck(KnownFormulas):
                 if self.quotients([gap := self.read(text) - total], {}).zero(gap):
                     self.units[label] = total
                     self.squares[group[-1]] = self.known[group[-1]] * self.known[group[-1]] - total
-        if self.units.keys() != self.proof["units"].keys():
-            raise RefusedError("a square that is no link's")
-        self.unknowns = {
-            name for name in names if any(name in _symbols_of(text) for text in self.proof["loops"].values())
-        }
+        require(self.units.keys() == self.proof["units"].keys(), "a square that is no link's")
+        sought = {name for text in self.proof["loops"].values() for name in re.findall(r"[A-Za-z_][\w']*", text)}
+        self.unknowns = {*names} & sought
         self.sliding = {name: self.known[own] for name, own in sliding.items()}
         for name, text in self.proof["vectors"].items():
-            if name in self.known:
-                raise RefusedError(f"two unknowns of the name {name}")
+            require(name not in self.known, f"two unknowns of the name {name}")
             self.values[name] = self.read(text)
         self.known |= {name: symbol(name) for name in self.values}
         self.unknowns |= self.values.keys()
@@ -222,29 +214,12 @@ class _ProblemCheck(KnownFormulas):
         self.loops = {name: term(self.read(text)) for name, text in self.proof["loops"].items()}
         axes = self.proof["axes"]
         for name, claim in axes.items():
-            if not self._shared(self.loops[name], claim, turns):
-                raise RefusedError(f"{name} is not that of an axis which links of {claim['joint']} share")
+            shared = self.orientations.shared(self.loops[name], claim, turns)
+            require(shared, f"{name} is not that of an axis which links of {claim['joint']} share")
         loops = {name: own for name, own in self.loops.items() if name not in axes}
-        if len(rows) != len(loops):
-            raise RefusedError(f"{len(loops)} loop equations, and the mechanism file has {len(rows)}")
+        require(len(rows) == len(loops), f"{len(loops)} loop equations, and the mechanism file has {len(rows)}")
         for row, (name, own) in zip(rows, loops.items(), strict=True):
-            if not self.zero(row - own):
-                raise RefusedError(f"{name} is not the mechanism's: another mechanism or version")
-
-    def _shared(self, row: Term, claim: Mapping[str, Any], turns: Mapping[str, ClaimedTurn]) -> bool:
-        """Whether it vanishes, as an axis of a joint is one in both links, either first, or at one angle to a rod."""
-        if any(self.zero(row - term(own.leaning(self.known, self.zero))) for own in turns.values()):
-            return True
-        x, y, z = map(self.checked, claim["along"])
-        for hop in self.assembly.hops:
-            if hop.axis is None or hop.joint != claim["joint"] or not {hop.start, hop.end} <= turns.keys():
-                continue
-            ends = ((own.start, own.axis or hop.axis) for own in (hop, hop.back))
-            first, second = (turns[link].image(axis, self.known, self.zero) for link, axis in ends)
-            gap = term(dot((x, y, z), subtract(first, second)))
-            if self.zero(row - gap) or self.zero(row + gap):
-                return True
-        return False
+            require(self.zero(row - own), f"{name} is not the mechanism's: another mechanism or version")
 
     # sets
 
@@ -262,29 +237,23 @@ class _ProblemCheck(KnownFormulas):
         self.known = everything | {name: symbol(name) for name in formulas}
         quantities = {root: term(self.read(own["quantity"])) for root, own in choices.items()}
         self.values |= quantities
-        equations = {f"e{k}": self._equation(text) for k, text in enumerate(given["equations"], start=1)}
-        lines = {f"l{k}": self._equation(text) for k, text in enumerate(given["lines"], start=1)}
+        equations = {f"e{k}": self._side(text) for k, text in enumerate(given["equations"], start=1)}
+        lines = {f"l{k}": self._side(text) for k, text in enumerate(given["lines"], start=1)}
         self._follow(equations, proved["equations"], self.loops)
         self._follow(lines, proved["lines"], equations | self.units)
         equations |= lines | self.units
         degree = 1 if polynomial is None else self._polynomial(polynomial, formulas, equations)
         for name, own in formulas.items():
-            if name in choices:
-                claim = symbol(name) * symbol(name) - own
-            elif name in later:
-                claim = symbol(name) - own
-            else:
-                continue
-            if not self.zero(claim - self.total(proved["formulas"][name], equations)):
-                raise RefusedError(f"{name} does not follow: {given['formulas'][name][:60]}")
-        if not unknowns <= formulas.keys():
-            raise RefusedError(f"nothing says what {', '.join(sorted(unknowns - formulas.keys()))} is")
+            if name in choices or name in later:
+                claim = symbol(name) * (symbol(name) if name in choices else 1) - own
+                gap = claim - self.total(proved["formulas"][name], equations)
+                require(self.zero(gap), f"{name} does not follow: {given['formulas'][name][:60]}")
+        require(unknowns <= formulas.keys(), f"nothing says what {', '.join(sorted(unknowns - formulas.keys()))} is")
         for root in choices:
             del self.values[root]
         self.earlier |= {name: own for name, own in formulas.items() if name in later}
         self.numbers.squares |= {name: own for name, own in self.squares.items() if name in formulas}
-        if given["roots"] != (count := degree * 2 ** len(choices)):
-            raise RefusedError(f"{given['roots']} roots are claimed, {count} follow of the choices")
+        require(given["roots"] == degree * 2 ** len(choices), f"{given['roots']} roots are claimed, others follow")
         for name in self.earlier.keys() & self.proof["vectors"].keys():
             self.values.pop(name, None)
 
@@ -300,12 +269,11 @@ class _ProblemCheck(KnownFormulas):
     def _polynomial(self, own: Mapping[str, Any], formulas: Mapping[str, Term], equations: dict[str, Term]) -> int:
         """How many roots it has at most: it vanishes, by multiples of equations; a quadric `q` is then one of them."""
         if own["quadric"]:
-            quadric = self._equation(own["quadric"])
+            quadric = self._side(own["quadric"])
             self._follow({"q": quadric}, [own["given"]], equations)
             equations["q"] = quadric
         vanishing = formulas[own["vanishes"]]
-        if not self.zero(vanishing - self.total(own["shares"], equations)):
-            raise RefusedError(f"{own['vanishes']} does not vanish")
+        require(self.zero(vanishing - self.total(own["shares"], equations)), f"{own['vanishes']} does not vanish")
         cosine, sine = own["circle"]
         for level in (self.turning_names({cosine, sine}), *self.levels()):
             degree = 2 * self.quotients([vanishing], level).degree(vanishing, cosine, sine)
@@ -320,17 +288,12 @@ class _ProblemCheck(KnownFormulas):
         for name, text in given["formulas"].items():
             if self.proof["named"].get(name) == text:
                 continue
-            if name in self.known:
-                raise RefusedError(f"{name} has two formulas")
-            if name in choices:
-                if text != f"sqrt({choices[name]['radicand']})":
-                    raise RefusedError(f"{name} is no root of its radicand")
-                formulas[name] = term(self.read(choices[name]["radicand"]))
-            else:
-                formulas[name] = term(self.read(text))
+            require(name not in self.known, f"{name} has two formulas")
+            own = choices[name]["radicand"] if name in choices else text
+            require(name not in choices or text == f"sqrt({own})", f"{name} is no root of its radicand")
+            formulas[name] = term(self.read(own))
             self.known[name] = symbol(name)
-        if not choices.keys() <= formulas.keys():
-            raise RefusedError("choices without a root")
+        require(choices.keys() <= formulas.keys(), "choices without a root")
         return formulas
 
     def _conditions(self, texts: Sequence[str], formulas: Mapping[str, Term], choices: Mapping[str, Any]) -> None:
@@ -338,56 +301,42 @@ class _ProblemCheck(KnownFormulas):
         known = formulas.keys() - self.unknowns - choices.keys()
         self.names |= {name: own for name, own in formulas.items() if name in known}
         self.numbers.squares |= {root: formulas[root] for root in choices}
-        for text in texts:
-            if not text.endswith(" != 0"):
-                raise RefusedError(f"{text[:60]!r} is no condition")
-            self.conditions.append(text)
-            self.allowed.append(term(self.read(text.removesuffix(" != 0"))))
+        self.conditions += texts
+        self.allowed += (self._side(text, " != 0") for text in texts)
         for name, own in formulas.items():
-            for divisor in divisors([own]):
-                if not self.nonzero(divisor):
-                    raise RefusedError(f"the formula of {name} is divided by what may vanish")
+            self.divided(own, f"the formula of {name}")
 
-    def _equation(self, text: str) -> Term:
-        if not text.endswith(" = 0"):
-            raise RefusedError(f"{text[:60]!r} is no equation")
-        return term(self.read(text.removesuffix(" = 0")))
+    def _side(self, text: str, end: str = " = 0") -> Term:
+        """What an equation says is zero, or a condition that it is not."""
+        require(text.endswith(end), f"{text[:60]!r} does not end in{end}")
+        return term(self.read(text.removesuffix(end)))
 
     def _follow(self, equations: Mapping[str, Term], shares: Sequence[Multiples], known: Mapping[str, Term]) -> None:
         """Each equation is a sum of multiples of what is known to vanish."""
         for (name, own), multiples in zip(equations.items(), shares, strict=True):
-            if not self.zero(own - self.total(multiples, known)):
-                raise RefusedError(f"{name} does not follow of {', '.join(multiples)}")
+            require(self.zero(own - self.total(multiples, known)), f"{name} does not follow of {', '.join(multiples)}")
 
     def _lengths(self) -> None:
-        """Lengths after the sets, and of the direct problem the platform's point."""
+        """Lengths after the sets."""
         for name, text in self.problem["lengths"].items():
             own = self.checked(text)
             shares = self.proof["lengths"][name]
             level = dict(self.earlier)
             self.earlier = {}
-            if not self.zero(symbol(name) - own - self.total(shares, self.loops)):
-                raise RefusedError(f"{name} does not follow: {text[:60]}")
+            gap = symbol(name) - own - self.total(shares, self.loops)
+            require(self.zero(gap), f"{name} does not follow: {text[:60]}")
             self.earlier = level | {name: own}
-        if self.name == "direct":
-            for name, reached_point in zip("xyz", self.platform, strict=True):
-                if not self.zero(reached_point - self.checked(self.problem["results"][name])):
-                    raise RefusedError(f"the platform's {name} is another")
-        elif dict(self.problem["results"]) != dict(self.problem["lengths"]):
-            raise RefusedError("results that are not the lengths")
 
-    def _entries(self, turns: Mapping[str, ClaimedTurn]) -> None:
-        """Entries of the platform's rotation, where they are among the results of a direct problem."""
-        for name, text in self.problem["results"].items():
-            if self.name == "inverse" or name in LENGTHS:
-                continue
-            if not re.fullmatch("R[123][123]", name):
-                raise RefusedError(f"no result is called {name[:40]!r}")
-            row, column = int(name[1]) - 1, int(name[2]) - 1
-            turned = turns[self.mechanism.platform].image(ONE[column], self.known, self.zero)[row]
-            if not self.zero(term(turned) - self.checked(text)):
-                raise RefusedError(f"the platform's {name} is another")
-
-
-def _symbols_of(text: str) -> set[str]:
-    return {*re.findall(r"[A-Za-z_][\w']*", text)}
+    def _results(self, turns: Mapping[str, ClaimedTurn]) -> None:
+        """Lengths of the inverse problem; of the direct one the platform's point, and entries of its rotation."""
+        results = self.problem["results"]
+        if self.name == "inverse":
+            require(dict(results) == dict(self.problem["lengths"]), "results that are not the lengths")
+            return
+        for name in {**dict.fromkeys(LENGTHS), **results}:
+            own = self.platform[LENGTHS.index(name)] if name in LENGTHS else None
+            if own is None:
+                require(re.fullmatch("R[123][123]", name), f"no result is called {name[:40]!r}")
+                row, column = int(name[1]) - 1, int(name[2]) - 1
+                own = turns[self.mechanism.platform].image(ONE[column], self.known, self.zero)[row]
+            require(self.zero(term(own) - self.checked(results[name])), f"the platform's {name} is another")

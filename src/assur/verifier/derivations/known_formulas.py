@@ -7,7 +7,7 @@ from typing import Any
 
 from assur.verifier.derivations.terms import Quotients, Term, WrittenNumbers, divisors, symbols_of, term
 from assur.verifier.formula import plain, value
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import RefusedError, require
 
 LONGEST = 1_000_000
 """Letters of a formula."""
@@ -47,10 +47,13 @@ class KnownFormulas:
     def checked(self, text: Any) -> Term:
         """The same, where what it is divided by is looked at."""
         own = term(self.read(text))
-        for divisor in divisors([own]):
-            if not self.nonzero(divisor):
-                raise RefusedError(f"{str(text)[:80]!r} is divided by what may vanish")
+        self.divided(own, repr(str(text)[:80]))
         return own
+
+    def divided(self, own: Term, what: str) -> None:
+        """Errors: RefusedError, where a term is divided by what may vanish."""
+        for divisor in divisors([own]):
+            require(self.nonzero(divisor), f"{what} is divided by what may vanish")
 
     def zero(self, own: Any) -> bool:
         """Whether a number vanishes, by known squares, then by what names stand for, then by what is solved."""

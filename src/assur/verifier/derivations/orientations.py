@@ -7,9 +7,9 @@ from typing import Any
 
 from assur.verifier.derivations.assembly import FileAssembly
 from assur.verifier.derivations.known_formulas import KnownFormulas
-from assur.verifier.derivations.terms import Term
-from assur.verifier.derivations.turning import ClaimedTurn, Hop, Triangle, fixes, is_rotation, reached, rods, same
-from assur.verifier.reading import RefusedError
+from assur.verifier.derivations.terms import Term, term
+from assur.verifier.derivations.turning import ClaimedTurn, Hop, fixes, is_rotation, reached, rods, same
+from assur.verifier.reading import require
 from assur.verifier.vectors import ONE, Matrix, Vector, apply, cross, dot, plus, product, subtract, transposed
 
 
@@ -29,7 +29,6 @@ class OrientationCheck:
         self.assembly, self.mechanism, self.formulas, self.proof = assembly, assembly.mechanism, formulas, proof
         self.zero = formulas.zero
         self.ways: list[str] = []
-        self._holders: dict[str, tuple[str, list[str]]] = {}
 
     def _vector(self, parts: Any) -> Vector:
         x, y, z = (self._entry(self.formulas.read(part)) for part in parts)
@@ -55,39 +54,28 @@ class OrientationCheck:
         """Orientations as they are claimed, each held against what the joints say."""
         for reason in self.proof["reasons"]:
             self._reason(reason)
-        turns: dict[str, ClaimedTurn] = {}
-        for own in self.proof["orientations"]:
-            if "triangle" in own:
-                claim = own["triangle"]
-                self._holders[str(own["link"])] = str(claim["link"]), [str(name) for name in claim["joints"]]
-            turn = self.assembly.claimed(own, self.proof["orientations"], self._vector)
-            turns[turn.link] = turn
+        claimed = (self.assembly.claimed(own, self._vector) for own in self.proof["orientations"])
+        turns = {turn.link: turn for turn in claimed}
         fixed = self._reached(self.mechanism.base, None)
-        for turn in turns.values():
-            if turn.kind == "fixed":
-                fine = turn.link in fixed and same(fixed[turn.link], turn.constant, self.zero)
-            elif turn.kind == "circle" and turn.axis is not None:
-                fine = self._on_circle(turn, turn.axis, turns)
-            elif turn.kind == "carried":
-                fine = self._carried(turn, turns)
-            elif turn.kind == "triangle" and turn.triangle is not None:
-                fine = self._by_balls(turn, turn.triangle, turns)
-            else:
-                fine = turn.kind == "rod" and turn.rod is not None and self._on_rod(turn, turns)
-            if not fine:
-                raise RefusedError(f"the joints do not say that {turn.link} is turned so")
+        fine = {"circle": self._on_circle, "carried": self._carried, "triangle": self._by_balls, "rod": self._on_rod}
+        for link, turn in turns.items():
+            still = turn.kind == "fixed" and link in fixed and same(fixed[link], turn.constant, self.zero)
+            so = still or (turn.kind in fine and fine[turn.kind](turn, turns))
+            require(so, f"the joints do not say that {link} is turned so")
         return turns
 
-    def _by_balls(self, turn: ClaimedTurn, triangle: Triangle, turns: Mapping[str, ClaimedTurn]) -> bool:
+    def _by_balls(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
         """Whether three balls hold a link, which are not on a line, and nothing else does.
 
         Vectors between them that close and keep their lengths are those of one rotation, and of no other.
         """
-        leader, names = self._holders[turn.link]
-        inside = self._reached(leader, None)
+        triangle = turn.triangle
+        if triangle is None:
+            return False
+        inside = self._reached(triangle.link, None)
         leaving = self._leaving(inside)
-        held = leaving.keys() == {*names} and {*leaving.values()} == {"spherical"}
-        between, own = inside.get(turn.link), turns[leader]
+        held = leaving.keys() == {*triangle.joints} and {*leaving.values()} == {"spherical"}
+        between, own = inside.get(turn.link), turns[triangle.link]
         if not held or between is None or self.mechanism.base in inside or own.kind != "triangle":
             return False
         alike = own.triangle is not None and own.triangle.sides == triangle.sides
@@ -105,8 +93,7 @@ class OrientationCheck:
         else:
             across = [self.zero(part) for part in cross(first, second)]
             fine = fine and not all(across) and self._turned_about(second, carrier, link, constant)
-        if not fine:
-            raise RefusedError(f"the joints do not say that {link} does not turn against {carrier}")
+        require(fine, f"the joints do not say that {link} does not turn against {carrier}")
         self.assembly.hops.append(Hop(carrier, link, constant))
 
     def _turned_about(self, axis: Vector, carrier: str, link: str, constant: Matrix) -> bool:
@@ -129,10 +116,11 @@ class OrientationCheck:
         meet = any(self.zero(dot(w, subtract(apply(turn, v), v))) for turn in between)
         return meet and not self.zero(dot(u, cross(v, w)))
 
-    def _on_circle(self, turn: ClaimedTurn, axis: Vector, turns: Mapping[str, ClaimedTurn]) -> bool:
+    def _on_circle(self, turn: ClaimedTurn, turns: Mapping[str, ClaimedTurn]) -> bool:
         """It turns about the axis alone, as far as the first link does that has the same unknowns."""
+        axis = turn.axis
         own = self._reached(self.mechanism.base, axis).get(turn.link)
-        if own is None or not self.zero(plus(dot(axis, axis), -1)):
+        if axis is None or own is None or not self.zero(plus(dot(axis, axis), -1)):
             return False
         psi = product(turn.constant, transposed(own))
         leader = next(o for o in turns.values() if o.circle == turn.circle and o.kind == "circle")
@@ -175,7 +163,7 @@ class OrientationCheck:
         Its line is not along that hinge. So Rot(axis, psi) Rot(hinge, phi) takes it to any direction but for a few.
         """
         line, hinge = turn.line, turn.hinge
-        if line is None or not self.zero(plus(dot(line, line), -1)):
+        if turn.rod is None or line is None or not self.zero(plus(dot(line, line), -1)):
             return False
         leader = next(own for own in turns.values() if own.rod == turn.rod)
         parallel = any(
@@ -215,6 +203,22 @@ class OrientationCheck:
         """Whether a hop is the hinge of a rod: Rot(axis, psi) Rot(hinge, phi) constant is its orientation."""
         carried = self._reached(self.mechanism.base, axis).get(hop.start)
         return carried is not None and self._about(hop, carried, turn, hinge)
+
+    def shared(self, row: Term, claim: Mapping[str, Any], turns: Mapping[str, ClaimedTurn]) -> bool:
+        """Whether it vanishes, as an axis of a joint is one in both links, either first, or at one angle to a rod."""
+        known = self.formulas.known
+        if any(self.zero(row - term(own.leaning(known, self.zero))) for own in turns.values()):
+            return True
+        x, y, z = map(self.formulas.checked, claim["along"])
+        for hop in self.assembly.hops:
+            if hop.axis is None or hop.joint != claim["joint"] or not {hop.start, hop.end} <= turns.keys():
+                continue
+            ends = ((own.start, own.axis or hop.axis) for own in (hop, hop.back))
+            first, second = (turns[link].image(axis, known, self.zero) for link, axis in ends)
+            gap = term(dot((x, y, z), subtract(first, second)))
+            if self.zero(row - gap) or self.zero(row + gap):
+                return True
+        return False
 
     def _stands(self, turn: ClaimedTurn, leader: ClaimedTurn) -> bool:
         """Whether a link's constant is that of another which it does not turn against."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from assur.verifier.formula import FloatNumbers, NumberType, plain, value
 from assur.verifier.mechanism import FileMechanism
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import RefusedError, require
 
 SAME = 1e-9
 """Share of the largest dimension within which a file's numbers have a relation: home closes its loops as nearly."""
@@ -60,17 +60,13 @@ class Relations:
 
 def _following(formulas: Mapping[str, str], free: Mapping[str, Any], numbers: NumberType) -> dict[str, Any]:
     """Values by name, of which some follow by formulas of the others. Errors: RefusedError."""
-    if not formulas.keys() <= free.keys():
-        raise RefusedError("a relation of what is no dimension")
-    known, waiting = {name: own for name, own in free.items() if name not in formulas}, dict(formulas)
-    while waiting:
-        before = len(waiting)
-        for name, text in list(waiting.items()):
+    require(formulas.keys() <= free.keys(), "a relation of what is no dimension")
+    known = {name: own for name, own in free.items() if name not in formulas}
+    for name, text in [*formulas.items()] * len(formulas):
+        if name not in known:
             try:
                 known[name] = value(text, known, numbers)
-            except KeyError:  # of what follows itself
+            except KeyError:  # of what follows itself, perhaps later
                 continue
-            del waiting[name]
-        if len(waiting) == before:
-            raise RefusedError(f"relations that say each other: {', '.join(waiting)[:80]}")
+    require(len(known) == len(free), f"relations that say each other: {', '.join(free.keys() - known.keys())[:80]}")
     return known

@@ -12,7 +12,7 @@ from typing import Any
 from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx
 
 from assur.verifier.field import Element, NoRootError
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import RefusedError, require
 
 
 def interpolated(value: Callable[[Element, Element], Any], degree: int, p: int) -> fmpz_mod_poly:
@@ -37,8 +37,7 @@ def interpolated(value: Callable[[Element, Element], Any], degree: int, p: int) 
         total = total + basis * ring([own * pow(int(basis(t)), -1, p) % p])
     if total.degree() != degree or total.gcd(ring([1, 0, 1])).degree() > 0:
         raise RefusedError(f"the polynomial is not of degree {degree} at what is drawn")
-    if total.gcd(total.derivative()).degree() > 0:
-        raise RefusedError("the polynomial has multiple roots")
+    require(total.gcd(total.derivative()).degree() <= 0, "the polynomial has multiple roots")
     return total
 
 
@@ -128,8 +127,7 @@ class RootNumber:
         """One over it. Errors: RefusedError, where it vanishes at a root."""
         if self.second is None or self.square is None:
             shared, factor, _ = self.first.xgcd(self.modulus)
-            if shared.degree() != 0:
-                raise RefusedError("a formula divides by what vanishes at a root of the polynomial")
+            require(shared.degree() == 0, "a formula divides by what vanishes at a root of the polynomial")
             return RootNumber(factor, self.modulus)  # the divisor that xgcd gives is 1
         norm = (self.first * self.first - self.second * self.second * self.square).inverse()
         return RootNumber(self.first * norm, self.modulus, -self.second * norm, self.square)

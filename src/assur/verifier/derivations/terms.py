@@ -18,8 +18,9 @@ from assur.verifier.formula import PI, AngleSum
 
 TRIED = 1000
 """Prime factors up to this are looked for under roots of rationals; what is left counts as one."""
-COSINES = {0: (1, 1), 1: (2, 3), 2: (2, 1), 3: (0, 0)}
-"""Of multiples of 30 deg: the divisor, and what stands under the root."""
+COSINES = ((1,), (Fraction(3, 8), Fraction(1, 8)), (Fraction(3, 4),), (Fraction(1, 2),), (Fraction(1, 4),),
+           (Fraction(3, 8), Fraction(-1, 8)), ())  # fmt: skip
+"""Of multiples of 15 deg up to 90 deg: what stands under roots whose sum it is, negative of one that is taken away."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +153,8 @@ class WrittenNumbers:
         if not isinstance(share, (int, Fraction)):
             raise NoExactError("an angle times a number")
         if name == PI and (Fraction(share) * 12).denominator == 1:
-            return self._twelfths(int(Fraction(share) * 12) % 24)
+            count = int(Fraction(share) * 12)
+            return self._cosine(count), self._cosine(count - 6)
         unit = Fraction(1, Fraction(share).denominator)
         c, s = self.angle(name if unit == 1 else f"{name}*{unit}")
         count = abs(Fraction(share).numerator)
@@ -166,21 +168,11 @@ class WrittenNumbers:
         cosine = symbol(f"cos({name})")
         return cosine, self._named(f"sin({name})", 1 - cosine * cosine)
 
-    def _twelfths(self, count: int) -> tuple[Term, Term]:
-        """Of a multiple of 15 deg, as 45 deg and multiples of 30 deg."""
-        if count % 2:
-            half = self.root(Fraction(1, 2))
-            c, s = self._twelfths((count - 3) % 24)
-            return (c - s) * half, (c + s) * half
-        sixths = count // 2
-
-        def cosine(k: int) -> Term:
-            k = min(k % 12, -k % 12)
-            under, inner = COSINES[min(k, 6 - k)]
-            own = self.root(Fraction(inner)) / under if inner else term(0)
-            return own if k <= 3 else -own
-
-        return cosine(sixths), cosine(sixths - 3)
+    def _cosine(self, count: int) -> Term:
+        """Of a multiple of 15 deg."""
+        count = min(count % 24, -count % 24)
+        own = sum((self.root(abs(part)) * (1 if part > 0 else -1) for part in COSINES[min(count, 12 - count)]), term(0))
+        return own if count <= 6 else -own
 
 
 class Quotients:
@@ -196,13 +188,10 @@ class Quotients:
         self, terms: Iterable[Term], squares: Mapping[str, Term], values: Mapping[str, Term] | None = None
     ) -> None:
         self._values = values or {}
-        needed = dict.fromkeys(symbols_of(terms))
-        waiting = list(needed)
-        for name in waiting:
-            for other in symbols_of([own for own in (self._values.get(name), squares.get(name)) if own is not None]):
-                if other not in needed:
-                    needed[other] = None
-                    waiting.append(other)
+        needed = [*dict.fromkeys(symbols_of(terms))]
+        for name in needed:
+            inner = symbols_of(own for own in (self._values.get(name), squares.get(name)) if own is not None)
+            needed += [other for other in dict.fromkeys(inner) if other not in needed]
         self.names = sorted(name for name in needed if name not in self._values)
         self.ring = fmpq_mpoly_ctx.get(tuple(f"g{k}" for k in range(max(1, len(self.names)))), Ordering.lex)
         self._known: dict[int, tuple[fmpq_mpoly, fmpq_mpoly]] = {}

@@ -76,10 +76,8 @@ def hops(graph: Graph, locked: Mapping[str, Circle]) -> Iterator[Hop]:
             if kind != "turn":
                 continue
             axis, given = own.axes[direction], locked.get(f"{name} {place}")
-            if given is None:
-                yield Hop(links[k], links[k + 1], after, axis, name)
-            else:
-                yield Hop(links[k], links[k + 1], product(about(axis, *given), after))
+            turned = after if given is None else product(about(axis, *given), after)
+            yield Hop(links[k], links[k + 1], turned, axis if given is None else None, name)
     for group in mechanism.parallelograms:
         yield from _kept(graph, group)
 
@@ -148,6 +146,8 @@ def same(first: Matrix, second: Matrix, zero: IsZero) -> bool:
 class Triangle:
     """Three balls of a link, in the frame in which it has its orientation, and the components of the sides by names."""
 
+    link: str
+    joints: tuple[str, ...]
     corners: Matrix
     sides: tuple[tuple[str, ...], ...]
 
@@ -217,22 +217,16 @@ class ClaimedTurn:
         if self.kind == "carried" and self.hinge is not None:
             cosine, sine = (values[name] for name in self.second or ())
             own = apply(about(self.hinge, cosine, sine), own)
-        if self.axis is None or all(map(zero, cross(self.axis, own))):
+        if self.kind == "fixed" or self.axis is None or all(map(zero, cross(self.axis, own))):
             return own
         if self.circle is None:
             raise RefusedError(f"{self.link} turns, and by what is not said")
         cosine, sine = (values[name] for name in self.circle)
         return apply(about(self.axis, cosine, sine), own)
 
-    def rotation(self, values: Mapping[str, Any]) -> Matrix | None:
+    def rotation(self, values: Mapping[str, Any], zero: IsZero) -> Matrix | None:
         """The orientation, where it is said."""
-        if self.kind == "fixed" or self.axis is None:
-            return self.constant if self.kind == "fixed" else None
-        if self.kind not in ("circle", "carried") or self.circle is None:
+        if self.kind not in ("fixed", "circle", "carried"):
             return None
-        cosine, sine = (values[name] for name in self.circle)
-        turn = about(self.axis, cosine, sine)
-        if self.kind == "carried" and self.hinge is not None:
-            cosine, sine = (values[name] for name in self.second or ())
-            turn = product(turn, about(self.hinge, cosine, sine))
-        return product(turn, self.constant)
+        x, y, z = (self.image(axis, values, zero) for axis in ONE)
+        return transposed((x, y, z))
