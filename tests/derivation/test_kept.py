@@ -7,9 +7,12 @@ import pytest
 import sympy
 
 from assur.derivation import kept
+from assur.derivation.document import document
 from assur.derivation.kept import derived_closed_form, derived_document
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.printed_derivation import printed_derivation
 from assur.derivation.solution import analytic_solution
+from assur.export.c99 import c99_text
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
@@ -17,6 +20,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import without_letter
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
+from assur.model.kernels.reading import names_of
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.synthesis.drafting.repeating import repeated
@@ -84,6 +88,24 @@ def test_dimensions_without_which_no_loop_closes_are_told_as_relations(tmp_path)
                for name, own in record.parameters.items()}  # fmt: skip
     assert abs(float((relation.symbol - relation.formula).subs(numbers))) < 1e-9
     assert solution.closes()
+    assert "For $x_{A} = " in document(printed_derivation(record, {"direct": solution}, {}))
+
+
+@pytest.mark.deep
+def test_relations_of_dimensions_are_told_in_code_and_held_against_the_file(tmp_path):
+    folder, chains = tmp_path / "own", parse_chains(["R[x] R[x] R[x]", "R[x] R[x]"])
+    folder.mkdir()
+    (folder / "mechanism.toml").write_text(drafted(chains, folder / "mechanism.toml").text, "utf-8")
+    plain = load_record(folder)
+    text = derived_closed_form(plain)
+    form = names_of(text, folder / "closed_form.py")["CLOSED_FORM"]
+    (relation,) = form.relations
+    assert f"for dimensions with {relation} only" in c99_text(plain.with_closed_form(form, text))
+    (folder / "closed_form.py").write_text(text, encoding="utf-8")
+    assert problems(load_record(folder))[0] == ()
+    (folder / "closed_form.py").write_text(text.replace(relation, f"{relation} + 1"), encoding="utf-8")
+    ((problem,), _) = problems(load_record(folder))
+    assert (problem.path, problem.given) == (f"relation {relation} + 1", "it is off by 1")
 
 
 def test_a_document_is_written_once_for_each_choice_of_problems(tmp_path, monkeypatch):

@@ -24,6 +24,8 @@ class ClosedFormDeclaration(ClosedFormParts):
         lines.append(f'    complete_for="{"reduced" if reduced else "joint_graph"}",')
         if reduced:
             lines.append(f'    reduced_because="{"; ".join(reduced)}",')
+        if relations := self.formulas.relations:
+            lines.append(f"    relations={relations!r},  # with other numbers no loop closes")
         eliminant = self.eliminant
         if eliminant is None:
             lines.append("    direct=direct,")

@@ -75,6 +75,12 @@ class ClosedFormFormulas:
             value = value.subs({symbol: known[symbol] for symbol in defined})
         return value
 
+    @property
+    def relations(self) -> tuple[str, ...]:
+        """Dimensions as what others say that they are, of either problem."""
+        both = (*self.direct.loops.relations, *self.inverse.loops.relations)
+        return tuple(dict.fromkeys(f"{own.symbol} = {own.formula}" for own in both))
+
     @cached_property
     def joints(self) -> SolvedJoints:
         """Formulas of all joints."""

@@ -62,6 +62,8 @@ def _lines(derivation: PrintedDerivation, topology: Topology | None) -> Iterator
             f"the parallelogram {names} stays one." if len(record.generalised) == 1
             else f"the parallelograms {names} stay such."
         )  # fmt: skip
+    if relations := {text: None for own in derivation.problems for text in own.written.printed.relations}:
+        yield f"For {listed([*relations])} only, as without it no loop closes."
     if topology is not None and topology.loops:
         yield r"\section{Loops}"
         yield from _topology(topology, {joint.alias: joint.name for joint in record.joints.values() if joint.alias})

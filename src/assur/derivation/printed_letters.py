@@ -111,6 +111,13 @@ class PrintedLetters:
         """Dimensions, what is given and what is sought, in the file's words."""
         return tuple(self._nomenclature())
 
+    @property
+    def relations(self) -> tuple[str, ...]:
+        """Dimensions as what others say that they are, as equations."""
+        writer = FormulaLatex(self.letters)
+        every = self.solution.loops.relations
+        return tuple(f"${self.letters[own.symbol].latex} = {writer.text(own.formula)}$" for own in every)
+
     def angle(self, unknown: UnknownDirection) -> str:
         """What is unknown of a link, as one letter: its angle, or the components of a direction."""
         first = self.letters[unknown.unknowns[0]]
@@ -173,7 +180,9 @@ class PrintedLetters:
 
     @property
     def _used(self) -> set[sympy.Symbol]:
-        return {symbol for formula in self._formulas for symbol in formula.free_symbols}
+        used = {symbol for formula in self._formulas for symbol in formula.free_symbols}
+        every = self.solution.loops.relations
+        return used.union(*({own.symbol, *own.formula.free_symbols} for own in every))
 
     def _of_direction(self, unknown: UnknownDirection) -> dict[sympy.Symbol, PrintedLetter]:
         if unknown.kind in VECTORS:

@@ -118,9 +118,13 @@ class _Source:
         return HEAD.format(
             name=self.name, upper=upper, title=_comment(record.title or record.name), unit=record.unit,
             inputs=", ".join(own.name for own in record.inputs), pose=", ".join(record.platform.pose),
-            margins="\n".join(self._names()), defines="\n".join(defines), parameters="\n".join(parameters),
-            values=values,
+            margins="\n".join([*self._relations(), *self._names()]), defines="\n".join(defines),
+            parameters="\n".join(parameters), values=values,
         )  # fmt: skip
+
+    def _relations(self) -> Iterator[str]:
+        for text in self.record.closed_form.relations if self.record.closed_form else ():
+            yield f" * for dimensions with {_comment(text)} only: with others no loop closes"
 
     def _names(self) -> Iterator[str]:
         for problem in self.problems:

@@ -205,6 +205,7 @@ class ClosedForm:
             closure of the joint graph drops.
         self_motion_singular: groups of factors; where all of one group vanish, the platform moves with
             every input locked.
+        relations: of dimensions for which alone all of it is so, as "e2 = e1": with other numbers no loop closes.
         sources: name of a coordinate, an input or a factor -> the equation that gives it.
         working, assembly: names of modes where the file's [modes] has none for a problem: those by which the joint
             graph names them, in its order.
@@ -229,6 +230,7 @@ class ClosedForm:
     self_motion: SelfMotion | None = None
     as_printed: Callable[..., tuple[Sequence[Sequence[Number]], Sequence[Sequence[Number]]]] | None = None
     reduced_because: str = ""
+    relations: tuple[str, ...] = ()
     working: tuple[str, ...] = ()
     assembly: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur.errors import Problem, cut
 from assur.kinematics.contract.algebra import Algebra
+from assur.kinematics.contract.dimensions import unrelated
 from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.extent import AT_LOAD, Extent
 from assur.kinematics.contract.held import at_other_dimensions, at_places, of_declarations, of_formulas
@@ -56,7 +57,7 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
     ((), True)
     """
     with np.errstate(all="ignore"):  # of a wrong form any number may come, and laws are not met by what is none
-        found, general = at_places(record, extent), False
+        found, general = unrelated(record) or at_places(record, extent), False
         if not found:
             found, general = at_other_dimensions(record, extent)
         if not found:

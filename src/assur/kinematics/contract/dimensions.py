@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from assur.errors import MechanismFileError, UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import RANK_GAP
+from assur.kinematics.closure import CLOSED, RANK_GAP
+from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.motions import motions
 from assur.model.dimensions import with_parameters
+from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord, Parameter
 
 SHARES = (0.15, 0.03)
@@ -33,6 +37,32 @@ def changed(record: MechanismRecord, random: np.random.Generator) -> MechanismRe
         if found is not None:
             return found
     return None
+
+
+def unrelated(record: MechanismRecord) -> list[Mismatch]:
+    """Relations of dimensions that a closed form states and the file's numbers do not have.
+
+    >>> from assur.model.registry import load_record
+    >>> unrelated(load_record("fivebar"))
+    []
+    """
+    form, numbers = record.closed_form, {name: own.inside for name, own in record.parameters.items()}
+    gaps = {text: _gap(text, numbers) for text in (form.relations if form else ())}
+    allowed = "a relation is <dimension> = <formula of others>, which the file's numbers have"
+    return [
+        Mismatch("relation", text, "inverse", f"it is off by {gap:.3g}", allowed)
+        for text, gap in gaps.items()
+        if not gap <= CLOSED * characteristic_length(record)
+    ]
+
+
+def _gap(text: str, numbers: Mapping[str, float]) -> float:
+    """By how much a relation is off; NaN where it is none."""
+    name, _, formula = text.partition(" = ")
+    try:
+        return float(abs(parse(formula).evaluate(numbers) - numbers[name]))
+    except (KeyError, UsageError, ArithmeticError):
+        return float("nan")
 
 
 def with_dimensions(record: MechanismRecord, values: dict[str, float]) -> MechanismRecord | None:

@@ -34,6 +34,8 @@ def _places(tree: ast.Module, mismatch: Mismatch) -> Iterator[int | None]:
     """Lines from the most telling to the least."""
     problem = _function(tree, mismatch.problem)
     name = mismatch.name
+    if mismatch.part == "relation":
+        yield from (node.lineno for node in ast.walk(tree) if isinstance(node, ast.Constant) and node.value == name)
     if mismatch.part == "margin":
         yield _entry(problem, name)
         yield from (_entry(function, name) for function in _functions(tree))

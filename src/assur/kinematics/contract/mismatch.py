@@ -28,6 +28,7 @@ Part = Literal[
     "radicand",
     "divisor",
     "self-motion",
+    "relation",
 ]
 
 
