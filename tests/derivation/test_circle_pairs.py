@@ -71,6 +71,25 @@ def test_its_components_are_two_quartics_each_root_with_a_mirror_image(three_rps
     assert (own.solutions, own.count, own.total) == (2, 16, "(4 + 4) x 2")
 
 
+def test_at_every_pose_one_of_the_written_quartics_vanishes(three_rps):
+    """In the order of their coefficients, as the code of the derived form has them."""
+    record, own = load_record("three_rps"), three_rps.components
+    values = {symbol: float(three_rps.symbols.witness.home[symbol]) for symbol in three_rps.symbols.parameters.values()}
+    values |= {
+        sympy.Symbol(driven.name, real=True): value for driven, value in zip(record.inputs, ALL_REAL, strict=True)
+    }
+    branches = direct(record, ALL_REAL)
+    turned = branches.joints[~branches.dropped][:, record.joint_coordinates("leg2.A")[0].index]
+    vanishing = []
+    for polynomial in own.polynomials:
+        terms = [float(part.subs(values)) * (-np.sin(turned)) ** power for power, part in enumerate(polynomial)]
+        vanishing.append(np.abs(np.sum(terms, axis=0)) < 1e-9 * np.sum(np.abs(terms), axis=0))
+    assert own.unknown == sympy.Symbol("sin_leg2_cylinder", real=True)
+    assert [len(polynomial) for polynomial in own.polynomials] == [5, 5]
+    assert np.sum(vanishing, axis=1).tolist() == [8, 8]
+    assert np.all(np.sum(vanishing, axis=0) == 1)
+
+
 def test_the_components_are_the_hand_written_quartics(three_rps, monkeypatch):
     """These are in P, e = o r (1 - P) and e = R - rho sin for the leg of the angle: eight roots by two routes."""
     own = three_rps.eliminant

@@ -62,6 +62,7 @@ def test_the_derived_form_of_the_3_rps_agrees_with_that_by_hand(tmp_path):
     by_hand = load_record("three_rps")
     record = written(tmp_path, by_hand.file.read_text(encoding="utf-8"))
     assert problems(record, IN_FULL)[0] == ()
+    assert (record.closed_form.direct.roots, len(record.closed_form.direct.signs)) == (4, 2)
     given = np.random.default_rng(2).uniform(190, 310, size=(60, 3))
     first, second = (direct(own, given, method="closed form") for own in (by_hand, record))
     sure = (first.overall_status != 9) & (second.overall_status != 9)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from assur.derivation.closed_form_formulas import APART
+from assur.derivation.closed_form_formulas import APART, ASIDE
 from assur.derivation.closed_form_meanings import CoincidenceMotion
 from assur.derivation.closed_form_parts import ClosedFormParts
 from assur.derivation.constraint_couples import COPLANAR
@@ -31,9 +31,11 @@ class ClosedFormDeclaration(ClosedFormParts):
             lines.append("    direct=direct,")
         else:
             signs = tuple(self.formulas.signs["direct", own.symbol][0] for own in self.formulas.direct.roots)
+            mirrored = self.formulas.mirrored
+            signs = signs if mirrored is None else mirrored.signs
             extra = f", {signs!r}" if signs else ""
             degree = self.formulas.direct.branches
-            kind = "angle" if self.formulas.three_quadrics is None else "plain"
+            kind = "angle" if self.formulas.three_quadrics is None and mirrored is None else "plain"
             extra += ", left_over=left_over" if kind == "angle" else ""
             lines.append(f'    direct=Eliminant("{self.unknown}", "{kind}", {degree}, coefficients, back{extra}),')
         lines += [f"    {name}={name}," for name in ("inverse", "joints", "factors", "jacobians")]
@@ -103,6 +105,11 @@ class ClosedFormDeclaration(ClosedFormParts):
             if value == APART:
                 yield f'Margin("{name}", "1", "two poses share the unknown {self.unknown}", unit=2, zero="degenerate")'
                 continue
+            if value == ASIDE:
+                meaning = f"{self.unknown} is no more than 1: two solutions that are mirror images meet"
+                signs = self.formulas.mirrored.signs[-1:] if self.formulas.mirrored else ()
+                yield f'Margin("{name}", "1", "{meaning}", unit=0, signs={signs!r})'
+                continue
             whole = self.formulas.in_unknowns(solution, value)
             unit, scale = self.formulas.unit(whole), self.formulas.margin_scale(problem, value)
             meaning = name if self.meanings is None else self.meanings.margin(problem, name, value).text
@@ -124,6 +131,8 @@ class ClosedFormDeclaration(ClosedFormParts):
         if three is not None:
             names = ", ".join(map(str, three.unknowns))
             yield f'Quantity("{self.unknown}", "number", "", (), "", "direct", "(6, 2, 3)/7 . ({names})")'
+        elif self.formulas.mirrored is not None:
+            yield f'Quantity("{self.unknown}", "number", "", (), "", "direct", "the unknown of the direct problem")'
         elif self.eliminant is not None:
             own[self.unknown] = f"angle of {self.eliminant.direction.links[0]}, the unknown of the direct problem"
         yield from (f'Quantity("{name}", "angle", "", meaning="{meaning}")' for name, meaning in own.items())

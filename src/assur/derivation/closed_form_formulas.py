@@ -10,10 +10,12 @@ from typing import Any
 import sympy
 
 from assur.derivation.circle_pairs import PairEliminant
+from assur.derivation.definitions import FreeNames
 from assur.derivation.direct_pose import direct_rest, hinge_angles, of_triangle, turned_by, upright
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
 from assur.derivation.linear import ONE, tidy
+from assur.derivation.mirror_polynomials import MirrorPolynomials, mirror_polynomials
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
 from assur.derivation.solution import AnalyticSolution
@@ -30,6 +32,10 @@ LENIENT = 2
 """So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
 APART = sympy.Symbol("apart", real=True)
 """Of a root in askew coordinates: a square without scale that vanishes where two solutions have the same one."""
+
+
+ASIDE = sympy.Symbol("aside", real=True)
+"""1 less the square of a cosine or a sine: two solutions that are mirror images merge where it vanishes."""
 
 
 @dataclass(frozen=True)
@@ -146,6 +152,13 @@ class ClosedFormFormulas:
         return None if part is None else three_quadrics(part, self.direct.symbols.witness)
 
     @cached_property
+    def mirrored(self) -> MirrorPolynomials | None:
+        """The polynomial of the direct problem in components and sides, where it is one in even powers."""
+        record = self.direct.symbols.record
+        names = FreeNames({*record.parameters, *record.modes.working, *record.modes.assembly, *self.sign_values})
+        return mirror_polynomials(self.direct, names)
+
+    @cached_property
     def three_circles(self) -> tuple[UnknownDirection, ...]:
         """Those that a polynomial of the direct problem is left of, where they carry the balls of one link."""
         own = self.direct.eliminant
@@ -173,6 +186,8 @@ class ClosedFormFormulas:
                     yield self._condition_name(condition, part.directions[0].name, number), condition
             if three is not None:
                 yield APART.name, APART
+            if problem == "direct" and part.eliminant is not None and self.mirrored is not None:
+                yield ASIDE.name, ASIDE
             for root in part.roots:
                 yield root.radicand.name, root.radicand
         if of_triangle(self.direct):

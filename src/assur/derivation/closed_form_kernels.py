@@ -10,12 +10,13 @@ from typing import Any
 import sympy
 
 from assur.derivation.angle_eliminant import AngleEliminant
-from assur.derivation.closed_form_formulas import APART
+from assur.derivation.closed_form_formulas import APART, ASIDE
 from assur.derivation.closed_form_parts import ClosedFormParts
 from assur.derivation.definitions import Definition, FreeNames
 from assur.derivation.elimination import Root
 from assur.derivation.kernel_text import KernelPrinter, sign_text
 from assur.derivation.linear import ONE
+from assur.derivation.mirror_polynomials import MirrorPolynomials
 from assur.derivation.three_quadrics import ThreeQuadrics
 from assur.kinematics.modes import Problem
 
@@ -45,7 +46,11 @@ class ClosedFormKernels(ClosedFormParts):
         """The kernels of one problem."""
         if problem == "direct" and self.eliminant is not None:
             three = self.formulas.three_quadrics
-            parts = self._polynomial(self.eliminant) if three is None else self._in_space(three, self.eliminant)
+            mirrored = self.formulas.mirrored
+            if three is not None:
+                parts = self._in_space(three, self.eliminant)
+            else:
+                parts = self._polynomial(self.eliminant) if mirrored is None else self._mirrored(mirrored)
             return "\n\n".join(part.strip("\n") + "\n" for part in parts)
         solution = self.formulas.solution(problem)
         names = [name for root in solution.roots if (name := self.formulas.signs[problem, root.symbol][0])]
@@ -84,6 +89,29 @@ class ClosedFormKernels(ClosedFormParts):
         lines.append(f'    """The pose at a root, cosine and sine of {self.unknown}."""')
         lines += self._given("direct")
         lines.append(f"    {cosine}, {sine} = root")
+        yield "\n".join([*lines, *self._at_root()])
+
+    def _mirrored(self, own: MirrorPolynomials) -> Iterator[str]:
+        """The kernels of a direct problem that ends in polynomials in even powers."""
+        lines = ["def coefficients(ns, p, inputs, sign):"]
+        which = f", of the component that sign.{own.signs[0]} tells" if len(own.polynomials) > 1 else ""
+        lines.append(f'    """Coefficients, the constant term first, of the polynomial in {own.unknown}{which}."""')
+        lines += self._given("direct")
+        for name, row in zip(("first", "second"), own.polynomials, strict=False):
+            lines += [f"    {name} = (", *(f"        {self.printer.doprint(part)}," for part in row), "    )"]
+        chosen = f"tuple((a + b + sign.{own.signs[0]} * (a - b)) / 2 for a, b in zip(first, second))"
+        yield "\n".join([*lines, f"    return {chosen if len(own.polynomials) > 1 else 'first'}"])
+        lines = ["def back(ns, p, inputs, root, sign):"]
+        side = own.signs[-1]
+        lines.append(f'    """The pose at a root {own.unknown}, of which sign.{side} tells two mirror images."""')
+        lines += self._given("direct")
+        lines += [f"    {own.unknown}, {ASIDE} = root, 1 - root * root"]
+        lines += [f"    {own.beside} = sign.{side} * ns.sqrt({ASIDE})"]
+        yield "\n".join([*lines, *self._at_root()])
+
+    def _at_root(self) -> list[str]:
+        """The lines that follow once cosine and sine of the polynomial's angle are known."""
+        solution, lines = self.formulas.direct, list[str]()
         circles, last = self.formulas.three_circles, 0
         if circles:
             names = {unknown for own in circles for unknown in own.unknowns}
@@ -92,7 +120,7 @@ class ClosedFormKernels(ClosedFormParts):
             pairs = self.pair_text([own.unknowns for own in circles])
             lines.append(f"    {pairs} = nearer_angles({self.pair_text(self.formulas.sides)}, {pairs})")
         lines += self._lines("direct", solution.definitions[last:])
-        yield "\n".join([*lines, *self._branch("direct")])
+        return [*lines, *self._branch("direct")]
 
     @property
     def _sign_argument(self) -> str:

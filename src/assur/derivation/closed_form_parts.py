@@ -84,6 +84,8 @@ class ClosedFormParts:
         record, eliminant = self.formulas.direct.symbols.record, self.eliminant
         if eliminant is None:
             return ""
+        if self.formulas.mirrored is not None:
+            return str(self.formulas.mirrored.unknown)
         if self.formulas.three_quadrics is not None:
             return str(FreeNames({*record.platform.pose, *record.angles, *record.parameters}).named("t"))
         posed = "phi" in record.platform.pose and record.platform.link in eliminant.direction.links

@@ -45,11 +45,12 @@ class ClosedFormText(ClosedFormKernels):
             declared.append("SelfMotion")
         if self.eliminant is not None:
             declared.append("Eliminant")
-            imports.append(
-                "from assur.numerics.expanded import coefficients_of, unknowns"
-                if three is None
-                else "from assur.numerics.resultants import ASKEW, eliminant, nearer, other_two, sum_of_squares"
-            )
+            if self.formulas.mirrored is None:
+                imports.append(
+                    "from assur.numerics.expanded import coefficients_of, unknowns"
+                    if three is None
+                    else "from assur.numerics.resultants import ASKEW, eliminant, nearer, other_two, sum_of_squares"
+                )
         if self.formulas.three_circles:
             imports.append("from assur.numerics.resultants import nearer_angles")
         if any(own.lean == 0 for own in self.formulas.joints.pointings):
@@ -94,6 +95,8 @@ class ClosedFormText(ClosedFormKernels):
         if three is not None:
             place = [self.formulas.of_direct(own) for own in three.unknowns]
             texts[self.unknown], used = f"dot(ASKEW[0], {self.pair_text(place)})", [*used, *place]
+        elif self.formulas.mirrored is not None:
+            texts[self.unknown] = f"core.{self.unknown}"
         elif self.eliminant is not None:
             pair = circle_of("phi") if self.unknown == "phi" else self.eliminant.direction.unknowns
             texts[self.unknown] = f"({', '.join(f'core.{own}' for own in pair)})"

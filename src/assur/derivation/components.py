@@ -40,11 +40,13 @@ class Components:
         unknown: the cosine or the sine, of each of whose values two angles are solutions; None for the tangent of half.
         angle: its name.
         parts: of each factor what is proved of its roots.
+        polynomials: of each factor the coefficients, the constant term first; none where angles are given.
     """
 
     unknown: sympy.Symbol | None
     angle: str
     parts: tuple[GroupFindings, ...]
+    polynomials: tuple[tuple[sympy.Expr, ...], ...] = ()
 
     @property
     def solutions(self) -> int:
@@ -99,7 +101,8 @@ def components(eliminant: AngleEliminant) -> Components | None:
         for kept in (sine, cosine, None):
             whole = _WrittenOut(eliminant, kept)
             if factors := whole.factors():
-                return Components(kept, eliminant.direction.name, tuple(map(whole.findings, factors)))
+                written = () if whole.circles else tuple(map(whole.coefficients, factors))
+                return Components(kept, eliminant.direction.name, tuple(map(whole.findings, factors)), written)
     except _NotWrittenOutError:
         return None
     return None
@@ -163,6 +166,15 @@ class _WrittenOut:
             return []
         factors = (part for part, power in last.factor()[1] for _ in range(power))
         return [part for part in factors if part.degrees()[self._unknown] and not self._divides_circle(part)]
+
+    def coefficients(self, part: fmpq_mpoly) -> tuple[sympy.Expr, ...]:
+        """Of a factor in the unknown, the constant term first."""
+        rows: list[list[sympy.Expr]] = [[] for _ in range(int(part.degrees()[self._unknown]) + 1)]
+        for powers, factor in part.to_dict().items():
+            others = (own ** int(power) for k, (own, power) in enumerate(zip(self.plain, powers, strict=True))
+                      if k != self._unknown)  # fmt: skip
+            rows[int(powers[self._unknown])].append(sympy.Rational(int(factor.p), int(factor.q)) * sympy.prod(others))
+        return tuple(sympy.Add(*row) for row in rows)
 
     def _divides_circle(self, part: fmpq_mpoly) -> bool:
         """Whether a factor is 1 + t^2, which is no root's."""

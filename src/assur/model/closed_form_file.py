@@ -161,10 +161,11 @@ def _names(record: MechanismRecord, form: ClosedForm, path: Path, *, signs: bool
 
 
 def _margin_signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Problem]:
-    """Margins of the direct problem name assembly signs, those of the inverse one working signs."""
+    """Margins name assembly signs, or those of polynomials, in the direct problem, working signs in the inverse one."""
     named = record.modes.completed(form.working, form.assembly)
+    of_polynomials = form.direct.signs if isinstance(form.direct, Eliminant) else ()
     for problem, margins, modes, own in (
-        ("direct", form.direct_margins, "assembly", named.assembly),
+        ("direct", form.direct_margins, "assembly", [*named.assembly, *of_polynomials]),
         ("inverse", form.inverse_margins, "working", named.working),
     ):
         for margin in margins:

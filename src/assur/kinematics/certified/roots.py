@@ -60,7 +60,7 @@ def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: Float
     )
     parts = 2 ** len(eliminant.signs)
     which = f"{parts} polynomials" if parts > 1 else "the polynomial"
-    right = f"the closed form, all roots of {which} of degree {eliminant.degree} in discs over intervals"
+    right = f"the closed form, all roots of {which} of degree {eliminant.roots} in discs over intervals"
     return matched(record, inputs, Candidates(found, *names), known, floats, right, extra)
 
 
