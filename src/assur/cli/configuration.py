@@ -54,7 +54,7 @@ def _shown(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableT
     yield ""
     if data.failures:
         yield failures(data.failures)
-    if data.factors:
+    if data.rank is not None:
         yield from _factors(record, data) if record.closed_form else _measures(data)
 
 
@@ -87,10 +87,14 @@ def _factors(record: Mechanism, data: ConfigurationAnswer) -> Iterable[Renderabl
     ]
     columns = ("factor", "value", "share", "kind", "zero where")
     styles = ["yellow" if zero[item.name] else "" for item in listed]
-    yield table(columns, rows, left=("factor", "kind", "zero where"), styles=styles)
+    if rows:
+        yield table(columns, rows, left=("factor", "kind", "zero where"), styles=styles)
+        yield f"share: of the factor's scale; zero within {FACTOR_TOLERANCE:g}"
+    else:
+        yield "det Jp and det Jq are 1 at every pose: the closed form declares no factor"
     units = {kind: power(record.unit, sum(f.unit for f in listed if f.kind == kind)) for kind in ("parallel", "serial")}
-    yield f"share: of the factor's scale; zero within {FACTOR_TOLERANCE:g}"
-    yield f"det Jp = {short(data.det_jp)} {units['parallel']}, det Jq = {short(data.det_jq)} {units['serial']}"
+    det_jp, det_jq = f"{short(data.det_jp)} {units['parallel']}", f"{short(data.det_jq)} {units['serial']}"
+    yield f"det Jp = {det_jp.strip()}, det Jq = {det_jq.strip()}"
     exists = data.condition is not None
     length = data.characteristic_length
     over = f", lengths over the characteristic length {short(length)} {record.unit}" if length else ""
@@ -98,5 +102,5 @@ def _factors(record: Mechanism, data: ConfigurationAnswer) -> Iterable[Renderabl
     yield f"by det Jp and det Jq alone: {data.reduced_kind}"
     freedoms = count(data.freedoms or 0, "freedom")
     yield f"joint graph: rank {data.rank} here, {data.generic_rank} in general; {freedoms}"
-    if data.kind != "regular" or data.near:
+    if data.closest and (data.kind != "regular" or data.near):
         yield f"closest to zero: {data.closest}"

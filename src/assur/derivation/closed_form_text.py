@@ -14,7 +14,7 @@ from assur.derivation.joint_formulas import BallRotation, Pointing
 from assur.derivation.kernel_text import sign_attribute
 from assur.derivation.symbols import circle_of
 
-CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph: {sets}."""
+CODE_HEAD = '''"""Closed form of {name}, derived from its joint graph{sets}."""
 
 from types import SimpleNamespace
 
@@ -69,7 +69,7 @@ class ClosedFormText(ClosedFormKernels):
             imports.append(f"from assur.numerics.vectors import {', '.join(vectors)}")
         own = {
             "name": record.name,
-            "sets": sets,
+            "sets": f": {sets}" if sets else "",
             "imports": "\n".join(imports),
             "declared": ", ".join(sorted(declared)),
         }

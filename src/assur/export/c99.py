@@ -109,7 +109,7 @@ class _Source:
         values = ", ".join(number_text(value) for value in numbers.values()) or "0.0"
         sizes = {
             "INPUTS": len(record.inputs), "COORDINATES": len(record.platform.pose), "ROWS": len(kernel.outputs["jp"]),
-            "MARGINS": max(len(own.outputs.get("margin", {})) for own in self.kernels.values()) or 1,
+            "MARGINS": max(len(own.outputs["margin"]) for own in self.kernels.values()) or 1,
             "FACTORS": len(kernel.outputs["factor"]) or 1,
             "SIGNS": max(len(self.signs(problem)) for problem in self.problems) or 1,
         }  # fmt: skip
@@ -201,7 +201,7 @@ class _Source:
         kernel, entries_of, targets = self.kernels[problem], dict[str, int](), dict[str, list[str]]()
         after: list[str] = []
         for kind in FILLED:
-            for row, (name, entries) in enumerate(kernel.outputs.get(kind, {}).items()):
+            for row, (name, entries) in enumerate(kernel.outputs[kind].items()):
                 if name in kernel.numbers.get(kind, {}):
                     after.append(f"{self._goals(kind, row, 1)[0]} = {number_text(kernel.numbers[kind][name])};")
                     continue

@@ -71,8 +71,8 @@ def relative_factors(record: MechanismRecord, factors: Mapping[str, FloatArray])
     return {item.name: factors[item.name] / scale(record, item.scale) for item in form.factor_list}
 
 
-def classify(record: MechanismRecord, factors: Mapping[str, FloatArray]) -> NDArray[np.int8]:
-    """Status (...) of existing solutions from the factors of det Jp and det Jq.
+def classify(record: MechanismRecord, factors: Mapping[str, FloatArray], shape: tuple[int, ...]) -> NDArray[np.int8]:
+    """Status (*shape) of existing solutions from the factors of det Jp and det Jq; a mechanism may have none.
 
     serial: a factor of det Jq vanishes; parallel: one of det Jp; comprehensive: both; constraint: a
     group of factors that lowers the rank of the whole closure; self_motion: a factor that lets the
@@ -82,33 +82,34 @@ def classify(record: MechanismRecord, factors: Mapping[str, FloatArray]) -> NDAr
     size = {name: np.abs(value) for name, value in relative_factors(record, factors).items()}
     zero = {name: value <= FACTOR_TOLERANCE for name, value in size.items()}
     of_kind = {kind: [item.name for item in form.factor_list if item.kind == kind] for kind in ("serial", "parallel")}
-    serial, parallel = (_any([zero[name] for name in names], zero) for names in of_kind.values())
+    serial, parallel = (_any([zero[name] for name in names], shape) for names in of_kind.values())
     alone = [group[0] for group in form.constraint_singular if len(group) == 1]
     watched = [*of_kind["serial"], *of_kind["parallel"], *alone]
-    near = _any([size[name] <= NEAR_SINGULAR for name in watched], zero)
+    near = _any([size[name] <= NEAR_SINGULAR for name in watched], shape)
     levels = (
         (Status.near_singular, near),
         (Status.serial, serial),
         (Status.parallel, parallel),
         (Status.comprehensive, serial & parallel),
-        (Status.constraint, _any_group(form.constraint_singular, zero)),
-        (Status.self_motion, _any_group(form.self_motion_singular, zero)),
+        (Status.constraint, _any_group(form.constraint_singular, zero, shape)),
+        (Status.self_motion, _any_group(form.self_motion_singular, zero, shape)),
     )
-    status = np.zeros(np.shape(near), dtype=np.int8)
+    status = np.zeros(shape, dtype=np.int8)
     for level, holds in levels:
         status[holds] = level
     return status
 
 
-def _any(conditions: Sequence[BoolArray], shape_of: Mapping[str, BoolArray]) -> BoolArray:
-    shape = np.broadcast_shapes(*(np.shape(value) for value in shape_of.values()))
-    wide = [np.broadcast_to(item, shape) for item in conditions] or [np.zeros(shape, dtype=bool)]
-    return np.asarray(np.logical_or.reduce(wide))
+def _any(conditions: Sequence[BoolArray], shape: tuple[int, ...]) -> BoolArray:
+    holds = np.zeros(shape, dtype=bool)
+    for condition in conditions:
+        holds |= condition
+    return holds
 
 
-def _any_group(groups: Sequence[tuple[str, ...]], zero: Mapping[str, BoolArray]) -> BoolArray:
+def _any_group(groups: Sequence[tuple[str, ...]], zero: Mapping[str, BoolArray], shape: tuple[int, ...]) -> BoolArray:
     """Where every factor of at least one group vanishes."""
-    return _any([np.logical_and.reduce([zero[name] for name in group]) for group in groups], zero)
+    return _any([np.logical_and.reduce([zero[name] for name in group]) for group in groups], shape)
 
 
 def _not_run(record: MechanismRecord) -> str:

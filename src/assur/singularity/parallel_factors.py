@@ -62,7 +62,7 @@ class ParallelFactors:
     @cached_property
     def _scales(self) -> FloatArray:
         factors = closed_form_of(self.record).factor_list
-        return np.array([[scale(self.record, factors[row].scale)] for row in self._rows])  # (F, 1)
+        return np.array([scale(self.record, factors[row].scale) for row in self._rows]).reshape(-1, 1)  # (F, 1)
 
 
 def packed(values: FloatArray) -> NDArray[np.int_]:

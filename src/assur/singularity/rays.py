@@ -93,6 +93,8 @@ class Rays:
             factor that vanishes there (N,), -1 for none; the singular poses (N, m), NaN for none.
         """
         values, reached = self.factors.at(poses)
+        if not len(values):  # no factor, so no crossing
+            return np.where(reached, np.inf, np.nan), np.full(len(poses), -1), np.full(poses.shape, np.nan)
         lengths = np.where(np.any(np.abs(values) <= FACTOR_TOLERANCE, axis=0), 0.0, np.inf)
         ways = np.zeros((len(poses), self._size))
         regular = np.flatnonzero(reached & np.isinf(lengths))

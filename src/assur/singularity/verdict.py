@@ -35,7 +35,7 @@ class Verdict(Tabulated):
             mode does not reach the pose; not_closed where the joint values do not close the loops.
         near: whether a factor is within `NEAR_SINGULAR` of zero without being zero.
         reduced_kind: the kind by the factors of det Jp and det Jq alone (serial, parallel, comprehensive).
-        closest: name of the factor that is closest to zero, relative to its scale.
+        closest: name of the factor that is closest to zero, relative to its scale; empty where there is none.
         factors, relative: those of the closed form, and divided by their scales. Judged on the joint graph: its
             measures, output, input and closure (`assur.kinematics.rates.instantaneous.Instant`).
         det_jp, det_jq, condition: of the regular form; the condition number is None where singular, with lengths
@@ -123,7 +123,7 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
         kind="regular" if kind == Status.near_singular else kind.name,
         near=kind == Status.near_singular,
         reduced_kind=_reduced_kind(bool(velocities.singular_input), bool(velocities.singular_output)),
-        closest=min(dividing, key=lambda name: abs(relative[name])),
+        closest=min(dividing, key=lambda name: abs(relative[name]), default=""),
         factors={name: float(value) for name, value in factors.items()},
         relative=relative,
         det_jp=float(velocities.det_jp),

@@ -88,7 +88,7 @@ def limits_reading(snapshot: Snapshot) -> Reading:
 
 
 def closest_factor(snapshot: Snapshot, working: Postures) -> Reading | None:
-    """The factor of the closed form that is closest to zero; None without closed form.
+    """The factor of the closed form that is closest to zero; None without closed form, or without factors.
 
     >>> from assur.kinematics.postures import postures
     >>> from assur.model.registry import load_record
@@ -104,6 +104,8 @@ def closest_factor(snapshot: Snapshot, working: Postures) -> Reading | None:
         name: float(value[posture.candidate]) for name, value in relative_factors(snapshot.record, values).items()
     }
     factors = {factor.name: factor for factor in form.factor_list if factor.kind != "other"}
+    if not factors:
+        return None
     name = min(factors, key=lambda candidate: abs(relative[candidate]))
     return Reading("closest factor", f"{name} = {relative[name]:.3g}", f"0 where {factors[name].meaning}")
 

@@ -151,7 +151,7 @@ class Branches(SolutionSet):
     def formula_status(self) -> NDArray[np.int8]:
         """The same by margins and factors alone, as sweeps want it: the loops of the joint graph are not asked."""
         with np.errstate(invalid="ignore"):
-            status = classify(self.record, self.factors)
+            status = classify(self.record, self.factors, self._real.shape)
         status[~self._real] = Status.unreachable
         form = closed_form_of(self.record)
         merging = [item for item in self._margin_list if item.zero == "merge"]
@@ -240,7 +240,8 @@ class Branches(SolutionSet):
 
     @cached_property
     def _real(self) -> NDArray[np.bool_]:
-        return exists(self.record, self._margin_list, self.margins)
+        allowed = exists(self.record, self._margin_list, self.margins)
+        return np.broadcast_to(allowed, (*self.batch_shape, len(self.modes_asked)))  # without margins: one for all
 
     @cached_property
     def _merged(self) -> NDArray[np.bool_]:

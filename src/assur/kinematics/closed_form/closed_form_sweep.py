@@ -90,9 +90,8 @@ class ClosedFormSweep(GridSweep):
         if "factors" not in rows:
             return self._answered(given).reshape(exists.shape)
         form = closed_form_of(self.record)
-        status = classify(
-            self.record, {item.name: row for item, row in zip(form.factor_list, rows["factors"], strict=True)}
-        )
+        factors = {factor.name: row for factor, row in zip(form.factor_list, rows["factors"], strict=True)}
+        status = classify(self.record, factors, exists.shape)
         status[~exists] = Status.unreachable
         if any(margin.zero == "degenerate" for margin in form.inverse_margins) and not np.all(exists):
             status[~exists] = self._answered(given[:, ~exists])[0]

@@ -55,8 +55,8 @@ class Algebra:
         named = {item.name for item in closed_form_of(kernel.record).factor_list}
         factors = {k for name, places in kernel.outputs["factor"].items() if name in named for k in places}
         declared = [k for item in kernel.margins if item.zero == "degenerate" for k in self.margin(item)]
-        declared += [*factors, *(k for places in kernel.outputs.get("finite", {}).values() for k in places)]
-        coefficients = [k for places in kernel.outputs.get("coefficient", {}).values() for k in places]
+        declared += [*factors, *(k for places in kernel.outputs["finite"].values() for k in places)]
+        coefficients = [k for places in kernel.outputs["coefficient"].values() for k in places]
         declared += [self.operations[j].arguments[1] for k in coefficients for j in self._quotients(k)]
         self._declared = sorted(set(declared))
         self._known: set[int] = set()

@@ -46,12 +46,14 @@ def _of_kind(solutions: Solutions, kind: Literal["parallel", "serial"], matrix: 
         return []
     label = {"parallel": "det Jp", "serial": "det Jq"}[kind]
     relative = relative_factors(record, solutions.factors)
-    sizes = ", ".join(f"{name} = {float(relative[name][row]):.3g}" for name in names) or "none"
+    sizes = ", ".join(f"{name} = {float(relative[name][row]):.3g}" for name in names)
+    shares = f"in units of their scales: {sizes}" if sizes else "no factor of that kind is declared"
+    mode = f"mode {solutions.labels[row]}" if solutions.labels[row] else "the only mode"
     text = (
-        f"{label} is {determinant[row]:.6g} and the product of its factors {product[row]:.6g} in mode "
-        f"{solutions.labels[row]} of the {solutions.problem} problem at "
+        f"{label} is {determinant[row]:.6g} and the product of its factors {product[row]:.6g} in "
+        f"{mode} of the {solutions.problem} problem at "
         f"{place_text(record, solutions.problem, solutions.given[row])}; "
-        f"in units of their scales: {sizes}"
+        f"{shares}"
     )
     allowed = f"{label} must be the product of the factors of kind '{kind}'"
     blamed = _to_blame(determinant, [solutions.factors[name] for name in names], names)

@@ -316,7 +316,7 @@ def _entries(kernel: Kernel) -> tuple[int, ...]:
 
 
 def _all(kernel: Kernel, kind: str) -> list[int]:
-    return [k for places in kernel.outputs.get(kind, {}).values() for k in places]
+    return [k for places in kernel.outputs[kind].values() for k in places]
 
 
 def _varying(kernel: Kernel) -> frozenset[int]:

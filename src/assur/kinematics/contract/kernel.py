@@ -29,6 +29,19 @@ from assur.numerics.recording.tape import Operation, Recorded, Recorder, Tape, p
 FloatArray = NDArray[np.float64]
 PLACED = frozenset({"jp", "jq", "pose", "input"})
 """Outputs whose plain numbers are entries too, as each stands in its place; of others only what is recorded counts."""
+KINDS = (
+    *sorted(PLACED),
+    "joint",
+    "margin",
+    "factor",
+    "sign",
+    "quantity",
+    "coefficient",
+    "equation",
+    "left over",
+    "finite",
+)
+"""All outputs: a closed form without margins or factors has none of that kind, and says so by an empty table."""
 Question = Literal["inverse", "direct", "self_motion"]
 
 
@@ -63,8 +76,7 @@ class Kernel:
         tape: every number that the kernels of the question work out.
         given: name, and whether it is an angle, of what is given for each problem.
         margins: those that the question judges.
-        outputs: "joint", "pose", "input", "margin", "factor", "sign", "jp", "jq", "quantity", "coefficient" or "finite"
-            -> name -> its entries of the tape; an angle has two.
+        outputs: each of `KINDS` -> name -> its entries of the tape; an angle has two.
         numbers: the same -> name -> a plain number, which has no entry.
     """
 
@@ -190,7 +202,7 @@ class _Writer:
         self.record, self.question, self.form, self.ns = record, question, closed_form_of(record), _Recorder(stop)
         self.p = kernel_dimensions(record, self.ns.uniform)
         self.given: list[tuple[str, bool]] = []
-        self.values: dict[str, dict[str, list[Any]]] = {}
+        self.values: dict[str, dict[str, list[Any]]] = {kind: {} for kind in KINDS}
         self.margins: tuple[Margin, ...] = ()
         self.numbers: dict[str, dict[str, float]] = {}
 
@@ -281,7 +293,7 @@ class _Writer:
         parts = _flat(value)
         if kind in PLACED:
             parts = [part if isinstance(part, Recorded) else self.ns.number(part) for part in parts]
-        self.values.setdefault(kind, {})[name] = [part for part in parts if isinstance(part, Recorded)]
+        self.values[kind][name] = [part for part in parts if isinstance(part, Recorded)]
         if kind not in PLACED and len(parts) == 1 and not isinstance(parts[0], Recorded):
             self.numbers.setdefault(kind, {})[name] = float(parts[0])
 

@@ -34,7 +34,7 @@ def false_statuses(solutions: Solutions, motion: InstantaneousMotion | None = No
     """
     if not len(solutions):
         return []
-    status = classify(solutions.record, solutions.factors)
+    status = classify(solutions.record, solutions.factors, (len(solutions),))
     told = np.flatnonzero(status >= Status.serial)
     if not len(told):
         return []

@@ -91,7 +91,7 @@ def _unnamed(own: Solutions, factor: Factor, usual: BoolArray, crossed: BoolArra
 
 def _unseen(own: Solutions, factor: Factor, singular: BoolArray) -> list[Mismatch]:
     """Zeros, to the last digit of a pose, at which the status is regular: the scale is far less than the factor."""
-    status = classify(own.record, own.factors)
+    status = classify(own.record, own.factors, (len(own),))
     wrong = np.flatnonzero(singular & (status < Status.near_singular))
     if not len(wrong):
         return []

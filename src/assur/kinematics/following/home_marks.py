@@ -23,6 +23,10 @@ def marked_words(labels: list[str], marks: tuple[bool, ...], how: str, none: str
 
     >>> marked_words(["+", "-"], (True, False), "by its signs", "none of these")
     'home: mode +, by its signs'
+    >>> marked_words([""], (True,), "followed straight from home", "none of these")
+    'home: the only mode, followed straight from home'
     """
     own = [label for label, mark in zip(labels, marks, strict=True) if mark]
+    if own == [""]:
+        return f"home: the only mode, {how}"
     return f"home: mode {', '.join(own)}, {how}" if own else f"home: {none}"

@@ -135,6 +135,8 @@ def _nearest_factor(
         return kind, *_named(form, group, factors)
     kinds = (kind,) if kind in ("parallel", "serial") else ("parallel", "serial")
     names = [item.name for item in form.factor_list if item.kind in kinds]
+    if not names:
+        return kind, "", "", None
     least = min(abs(factors[name]) for name in names)
     return kind, *_named(form, tuple(name for name in names if abs(factors[name]) <= ALIKE * least), factors)
 
