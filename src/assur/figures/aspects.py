@@ -14,9 +14,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from assur.errors import UsageError
 from assur.figures.context import Context
+from assur.figures.contours import filled
 from assur.figures.coordinates import dress, symbol, value_words
 from assur.figures.page import HIGHEST, legend_above, side_by_side
 from assur.figures.plots import limits_words, no_workspace, outline
@@ -54,8 +56,8 @@ NAMED = 10
 PATCH = 0.003
 """An aspect has its label in a cut where it covers so much of the panel."""
 
-LARGE = 0.4
-"""Rectangles of this share of the largest one's width are large enough for a label."""
+LARGE = 0.7
+"""Places this share of the largest distance away from the outline are far enough for a label."""
 
 LEFT, BOTTOM, TITLE, TOP, GAP, PANEL, LEAST = 14.0, 11.0, 8.0, 3.0, 6.0, 70.0, 60.0
 """Margins, the room for a title below a panel, that between panels and the width of one, in mm."""
@@ -233,14 +235,15 @@ def _rectangles(boxes: Boxes, value: float | None) -> FloatArray:
 
 
 def _letter(axes: Axes, aspect: Aspect, rectangles: FloatArray, least: float) -> None:
-    """The label in one of the aspect's largest rectangles, that nearest to its middle."""
-    spans = rectangles[:, 2] - rectangles[:, 0]
-    if not len(rectangles) or np.sum(np.prod(spans, axis=1)) < least:
+    """The label where the aspect has much room about it, of such places in that nearest to its middle."""
+    areas = np.prod(rectangles[:, 2] - rectangles[:, 0], axis=1)
+    if not len(rectangles) or np.sum(areas) < least:
         return
-    middles, sizes = rectangles.mean(axis=1), np.min(spans, axis=1)
-    centre = np.average(middles, axis=0, weights=np.prod(spans, axis=1))
-    large = np.flatnonzero(sizes > LARGE * np.max(sizes))
-    at = middles[large][np.argmin(np.sum((middles[large] - centre) ** 2, axis=1))]
+    middles, size = rectangles.mean(axis=1), np.ptp(rectangles.reshape(-1, 2), axis=0)
+    edge = np.concatenate([filled(polygon) for polygon in _united(rectangles)])
+    room = cKDTree(edge / size).query(middles / size)[0]
+    away = np.sum(((middles - np.average(middles, axis=0, weights=areas)) / size) ** 2, axis=1)
+    at = middles[np.argmin(np.where(room >= LARGE * np.max(room), away, np.inf))]
     halo = [withStroke(linewidth=2.0, foreground=PAPER)]
     axes.text(
         float(at[0]),

@@ -85,7 +85,7 @@ def draw_contours(
 
     Each level has its number once, where it is farthest from the border and from other numbers, if there is room.
     """
-    edge = _filled(axes.transData.transform(np.concatenate([np.asarray(part) for part in border.to_polygons()])))
+    edge = filled(axes.transData.transform(np.concatenate([np.asarray(part) for part in border.to_polygons()])))
     placed: list[FloatArray] = []
     inside = [level for level in sorted({*levels, *marked}) if np.min(values) < level < np.max(values)]
     for level in inside:
@@ -101,8 +101,8 @@ def draw_contours(
             text.set(rotation=angle, zorder=6, path_effects=halo)
 
 
-def _filled(edge: FloatArray) -> FloatArray:
-    """Points (k, 2) of the border on paper with others between them, so that none are far apart."""
+def filled(edge: FloatArray) -> FloatArray:
+    """Points (k, 2) of a closed line with seven more between each two, so that none are far apart."""
     following = np.roll(edge, -1, axis=0)
     shares = np.linspace(0.0, 1.0, 8, endpoint=False)[:, None, None]
     return np.asarray((edge + shares * (following - edge)).reshape(-1, 2))
