@@ -146,3 +146,17 @@ def test_of_too_many_nothing_is_said():
     inputs = inputs_of(record, home_values(record))
     assert solved_by_monodromy(record, "direct", inputs, np.tile(home_values(record), (40, 1))) is None
     assert not direct(record, inputs, method="search").complete
+
+
+@pytest.mark.parametrize(("longest", "complete"), [(module.LONGEST, True), (0, False)])
+def test_a_trace_that_takes_too_long_is_not_asked_on_line_after_line(monkeypatch, longest, complete):
+    """Two places tell no degree: those of a trace of any degree are too many, so that all stays unproved."""
+    lines_gone = []
+    monkeypatch.setattr(module, "LONGEST", longest)
+    monkeypatch.setattr(module, "FEW_PLACES", 2)
+    monkeypatch.setattr(module, "ComplexLoops", lambda *a: lines_gone.append(a) or ComplexLoops(*a))
+    record = load_record("fivebar")
+    home = home_values(record)
+    solutions = assemblies_by_monodromy(record, "direct", home[list(record.input_indices)], home[None])
+    assert (solutions.complex, solutions.complete) == (2, complete)
+    assert len(lines_gone) == 1

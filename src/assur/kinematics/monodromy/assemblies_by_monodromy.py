@@ -57,6 +57,9 @@ FEW_PLACES = 20
 """Places at which the trace is asked first: enough for one of a low degree, as most are."""
 MOST = 4000
 """Assemblies times the square of the joint coordinates up to which all are followed: with more it takes minutes."""
+LONGEST = 500_000
+"""The same times the places of a trace of any degree, up to which it is asked: ten seconds. Where it is not,
+nothing says that some are missing, and no other line is gone along."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +116,7 @@ def assemblies_by_monodromy(
             return None
         state, degree = _along_line(loops, state, base, rng)
         ends = followed(loops, state, np.full(state.shape[1], base), np.zeros(state.shape[1], dtype=complex))
-        if degree is not None or _too_many(record, state.shape[1]):
+        if degree is not None or _too_many(record, state.shape[1]) or _too_long(record, state.shape[1]):
             break
         state = ends.state[:, ends.arrived]
     real = ends.arrived & (np.max(np.abs(ends.state.imag), axis=0) < REAL)
@@ -177,6 +180,15 @@ def _too_many(record: MechanismRecord, count: int) -> bool:
     return count * len(record.coordinates) ** 2 > MOST
 
 
+def _too_long(record: MechanismRecord, count: int) -> bool:
+    return _places(count) * count * len(record.coordinates) ** 2 > LONGEST
+
+
+def _places(count: int) -> int:
+    """How many places tell the degree of a trace of so many assemblies."""
+    return 6 * count + 48
+
+
 def _anywhere(rng: np.random.Generator, count: int) -> ComplexArray:
     """Complex numbers (count,), small ones and large ones."""
     return random_complex(rng, count) * np.exp(rng.uniform(-SIZES, SIZES, count))
@@ -215,10 +227,13 @@ def _trace_degree(
 ) -> int | None:
     """Degree of the sum over assemblies of a function by chance; None where it is no rational function of a low degree.
 
-    With `thorough` of any degree.
+    With `thorough` of any degree, unless that takes too long.
     """
+    count = state.shape[1]
     few = _degree_at(FEW_PLACES, loops, state, base, rng)
-    return few if few is not None or not thorough else _degree_at(6 * state.shape[1] + 48, loops, state, base, rng)
+    if few is not None or not thorough or _too_long(loops.record, count):
+        return few
+    return _degree_at(_places(count), loops, state, base, rng)
 
 
 def _degree_at(
