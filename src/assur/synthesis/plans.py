@@ -27,9 +27,9 @@ Step = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
 
-ASSEMBLED, MOVED, MEGABYTES, LISTED = 0.003, 0.03, 0.015, 20
+ASSEMBLED, MOVED, MEGABYTES = 0.003, 0.03, 0.015
 """What a mechanism costs that is looked at, as measured: seconds by twists at given poses, seconds where it is moved by
-a finite amount, megabytes; and how many of each set are, about."""
+a finite amount, megabytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +39,13 @@ class ClassSet:
     Attributes:
         chosen: the classes.
         members: mechanisms that it stands for.
+        looked_at: so many of them are looked at, about.
         family: makes the family of those that have the motion.
     """
 
     chosen: tuple[Class, ...]
     members: int
+    looked_at: int
     family: Callable[[], MechanismFamily]
 
     def may_have(self, key: Key) -> bool:
@@ -85,7 +87,7 @@ class SearchPlan:
 
     @property
     def _looked_at(self) -> int:
-        return sum(min(some.members, LISTED) for some in self.sets)
+        return sum(some.looked_at for some in self.sets)
 
     @property
     def combinations(self) -> int:
@@ -169,7 +171,7 @@ def _parasitic(asked: SynthesisQuestion, step: Step, also: Sequence[Key]) -> Sea
     known = [*(one.key for one in known_by_directions(asked.motion)), *also]
     sought = _sought(asked, asked.motion, (), known)
     sets = (
-        ClassSet(one.chosen, len(one.chosen[0]) if asked.symmetric else one.members, partial(moved, one, sought))
+        _counted(one.chosen, one.members, sought, partial(moved, one, sought))
         for one in arranged_classes(_sets(usable, asked, step), asked.motion)
     )
     return SearchPlan(usable, tuple(sets), seconds=MOVED)
@@ -182,8 +184,16 @@ def _sought(
 
 
 def _class_set(chosen: tuple[Class, ...], sought: Sought, row: str = "") -> ClassSet:
-    members = len(chosen[0]) if sought.symmetric else number_of_members(chosen)
-    return ClassSet(chosen, members, partial(_assembled, chosen, sought, row))
+    return _counted(chosen, number_of_members(chosen), sought, partial(_assembled, chosen, sought, row))
+
+
+def _counted(
+    chosen: tuple[Class, ...], members: int, sought: Sought, family: Callable[[], MechanismFamily]
+) -> ClassSet:
+    """A set with the mechanisms that it stands for: of equal limbs all are looked at, of others the simplest."""
+    if sought.symmetric:
+        return ClassSet(chosen, len(chosen[0]), len(chosen[0]), family)
+    return ClassSet(chosen, members, min(members, sought.members), family)
 
 
 def _assembled(chosen: tuple[Class, ...], sought: Sought, row: str) -> MechanismFamily:
