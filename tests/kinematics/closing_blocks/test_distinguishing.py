@@ -218,6 +218,7 @@ OWN = {
     "3-RRR": ["3-RRR", "spherical"],
     "3-SPR": ["3-SPR"],
     "2UPR-RPU": ["2UPR-RPU"],
+    "2UPR-2RPU": ["2UPR-2RPU"],
     "Exechon": ["Exechon"],
     "6-RUS": ["6-RUS"],
     "Tsai": ["Tsai"],
