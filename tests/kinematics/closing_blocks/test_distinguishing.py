@@ -10,6 +10,7 @@ from assur.cli.main import main
 from assur.joint_graph.frames import frames
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import inputs_of
+from assur.kinematics.closing_blocks import distinguishing
 from assur.kinematics.closing_blocks.ball_ends import ball_ended_values, with_ball_ends
 from assur.kinematics.closing_blocks.columns import ScrewColumns, assemblies_by_chance
 from assur.kinematics.closing_blocks.distinguishing import _Solutions, _solved, _solving, distinguishing_signs
@@ -22,9 +23,11 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.starts import by_chance
 from assur.kinematics.still import otherwise
+from assur.kinematics.turns import lasting_relations
 from assur.model.registry import load_record
 from assur.numerics.rotations import about_axis, from_vector, to_vector
 from regular_walks import changes
+from screw_mechanisms import TRIPOD, loaded
 
 CROSSED = 0.01
 """Share of the usual distance from a singularity at which a sign changes that changes there: the place is known to
@@ -35,6 +38,23 @@ DEEP = [
     "delta_4s", "gough_stewart", "h4_robot", "linear_delta_4r", "linear_delta_4s", "orthoglide", "planar_3rrr",
     "three_crr", "three_p2us", "three_rps", "three_rrc", "three_rrrp4r", "three_upu", "tripteron",
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+def test_starts_by_chance_have_the_turns_of_home(problem, tmp_path, monkeypatch):
+    """A nut that begins some turns elsewhere on its shaft leads to no assembly of this mechanism."""
+    met = []
+
+    def met_from(record, starts, **asked):
+        met.append((record, starts, assemble(record, starts, **asked).closed))
+        return assemble(record, starts, **asked)
+
+    monkeypatch.setattr(distinguishing, "assemble", met_from)
+    distinguishing_signs(loaded(tmp_path, TRIPOD), problem)
+    record, starts, closed = met[0]
+    assert len(lasting_relations(record)) == 3
+    assert np.max(np.abs((starts - home_values(record)) @ lasting_relations(record).T)) < 1e-9
+    assert np.mean(closed) > 0.5
 
 
 def signs_of(record, problem, values):

@@ -35,6 +35,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.still import otherwise
+from assur.kinematics.turns import near_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.modulo_two import independent, residues_of_sums, vanishing_sums
 
@@ -283,15 +284,19 @@ def _in_turn(record: MechanismRecord, problem: Problem, target: FloatArray) -> L
 def _closed(
     record: MechanismRecord, problem: Problem, asked: Sequence[tuple[FloatArray, FloatArray]]
 ) -> list[FloatArray]:
-    """For each pair of a target (n,) and starts (S, n) the assemblies (N, n) to which these lead."""
+    """For each pair of a target (n,) and starts (S, n) the assemblies (N, n) to which these lead.
+
+    Nuts begin with the turns of home: from others eleven starts of twelve lead nowhere once the shafts are held.
+    """
     begun = np.concatenate([starts for _, starts in asked])
     counts = [len(starts) for _, starts in asked]
     targets = np.repeat([target for target, _ in asked], counts, axis=0)
-    if problem == "direct":
-        starts = held_inputs(record, begun, inputs_of(record, targets))
-        closed = assemble(record, starts, held=record.input_indices, enough=MOST, far=True, max_steps=MOST_STEPS)
-    else:
-        closed = assemble(record, begun, poses=pose_of(record, targets), enough=MOST, far=True, max_steps=MOST_STEPS)
+    direct = problem == "direct"
+    held, poses = (record.input_indices, None) if direct else ((), pose_of(record, targets))
+    if direct:
+        begun = held_inputs(record, begun, inputs_of(record, targets))
+    starts = near_turns_of_home(record, begun, held)
+    closed = assemble(record, starts, held=held, poses=poses, enough=MOST, far=True, max_steps=MOST_STEPS)
     kept = closed.closed.copy()
     kept[kept] = [not other for other in otherwise(record, closed.values[kept])]
     return [
