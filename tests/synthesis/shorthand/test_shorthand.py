@@ -15,6 +15,8 @@ def read(text):
     [
         ("3-RPS", [(3, "R P S", ())]),
         ("3RPS", [(3, "R P S", ())]),
+        ("3-rps", [(3, "R P S", ())]),
+        ("3-_r_pa(4s)", [(3, "R P(4S)", (0,))]),
         ("3-R_P_S", [(3, "R P S", (1,))]),
         ("3-RP\N{COMBINING LOW LINE}S", [(3, "R P S", (1,))]),
         (r"3-R\underline{P}S", [(3, "R P S", (1,))]),
@@ -39,7 +41,7 @@ def test_a_shorthand_is_limbs_and_what_is_underlined(text, limbs):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "3", "3-", "3-RQS", "3-R_PS", "-3-RPS", "0-RPS", "61-RPS", "3-RPS&", "3-RPS)", "rps"]
+    "text", ["", "3", "3-", "3-RQS", "3-R_PS", "-3-RPS", "0-RPS", "61-RPS", "3-RPS&", "3-RPS)", "rPS", "rqs"]
 )
 def test_what_is_no_shorthand_is_refused_with_its_place(text):
     with pytest.raises(UsageError, match=r"character|allowed"):

@@ -17,6 +17,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.architecture import self_motion_dimension
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.rates.restraint import WELL, restraint
+from assur.kinematics.rates.velocity import velocity_map_at
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic, unwrapped
 from assur.kinematics.validation.claims import Claims, axis_name, claims
@@ -196,13 +197,25 @@ def _singular(record: MechanismRecord) -> list[Problem]:
 def _badly_held(record: MechanismRecord) -> list[Problem]:
     """A home at which what holds the platform is nearly singular, in its constraints or with its inputs held."""
     held = restraint(record, home_values(record))
-    if held.condition <= WELL or self_motion_dimension(record):
+    if self_motion_dimension(record):
         return []
+    if held.condition <= WELL:
+        return _badly_conditioned(record)
     turn, move = held.weakest[:3, None], held.weakest[3:, None]
     turns = np.linalg.norm(turn) > np.linalg.norm(move)
     most = f"turns about {axis_name(turn)}" if turns else f"moves along {axis_name(move)}"
     text = f"with inputs held, the platform nearly {most}: condition number {held.condition:.0f} of what holds it"
     hint = "are axes of several legs parallel to one plane, or their forces to one line? turn some, or tilt home"
+    return [problem(record, table_place(record, "home"), text, f"it is unusual, but may be: up to {WELL:g}", hint)]
+
+
+def _badly_conditioned(record: MechanismRecord) -> list[Problem]:
+    """A home at which inputs move the platform much better in one direction than in another."""
+    condition = float(velocity_map_at(record, home_values(record)).condition)
+    if condition <= WELL:
+        return []
+    text = f"the condition number at home is {condition:.0f}"
+    hint = "is home near the end of a leg's reach, or are lengths in another unit?"
     return [problem(record, table_place(record, "home"), text, f"it is unusual, but may be: up to {WELL:g}", hint)]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import written_quantities
 from assur.kinematics.parasitic import moving
 from assur.kinematics.rates.motions import motions
+from assur.kinematics.rates.restraint import WELL
 from assur.kinematics.structure import linkage
 from assur.kinematics.validation.check import closes_far_off, faults
 from assur.model.file.reader import read_text
@@ -23,9 +24,9 @@ from assur.results.plain_text import count as plural
 from assur.synthesis.drafting.copying import next_steps
 from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.facts import differences
-from assur.synthesis.drafting.homes import away, clearance, holding, home_table
+from assur.synthesis.drafting.homes import CLEAR, away, clearance, holding, home_table, travel
 from assur.synthesis.drafting.knees import knee_formula, turned_round
-from assur.synthesis.drafting.layout import HEIGHT, DraftLayout
+from assur.synthesis.drafting.layout import HEIGHT, DraftLayout, looped
 from assur.synthesis.drafting.lengths import by_lengths
 from assur.synthesis.drafting.limb import HEIGHT_NAME
 from assur.synthesis.drafting.pose import pose_for
@@ -60,8 +61,9 @@ ROOM, TILT = 100, 30
 class Attempt:
     """One layout as a file: what is wrong with it, or how far its home is from singular; `unreadable`: none closes.
 
-    `held` is the condition number of what holds its platform; `moved`: home is not as `drawn`. Of an `unchecked` one it
-    is not known whether the file has faults.
+    `held` is the condition number of what holds its platform; `travel`, asked where limbs have inner loops, the share
+    of what inputs and platform should move that they do; `moved`: home is not as `drawn`. Of an `unchecked` one it is
+    not known whether the file has faults.
     """
 
     text: str
@@ -69,6 +71,7 @@ class Attempt:
     fault: str = ""
     clearance: float = 0.0
     held: float = 1.0
+    travel: float = 1.0
     unreadable: bool = False
     unchecked: bool = False
     drawn: Draft | None = None
@@ -120,7 +123,7 @@ class DraftQuestion:
                 pose=pose,
                 constant=still,
                 box=_box(pose, drawn),
-                header=self._header(moved=moved),
+                header=self._header(drawn, moved=moved),
                 home=home_table(record, values) if moved or closes_far_off(record) else {},
                 motion=motion_name(self.topology.poc.dim, self.topology.poc.r),
             )
@@ -129,7 +132,9 @@ class DraftQuestion:
             wrong = "" if unchecked else _fault(record)
             if wrong:
                 return Attempt("", None, wrong)
-            return Attempt(document(drawn, chosen), record, "", clearance(record), holding(record), unchecked=unchecked)
+            far, held = clearance(record), holding(record)
+            free = travel(record) if looped(self.chains) and far >= CLEAR and held <= WELL else 1.0
+            return Attempt(document(drawn, chosen), record, "", far, held, free, unchecked=unchecked)
         except AssurError as error:
             return Attempt("", None, error.message, unreadable=True)
 
@@ -170,16 +175,14 @@ class DraftQuestion:
     def _read(self, drawn: Draft, chosen: Chosen) -> MechanismRecord:
         return read_text(document(drawn, chosen), self.path)
 
-    def _header(self, *, moved: bool) -> tuple[str, ...]:
+    def _header(self, drawn: Draft, *, moved: bool) -> tuple[str, ...]:
         """What the file is, and what to do with it."""
-        texts = (" ".join((chain.text or plain_text(chain)).split()) for chain in self.chains)
-        limbs = [f"    limb {number}: {text}" for number, text in enumerate(texts, 1)]
         steps = [line.removeprefix("# ") for line in next_steps(self.path)]
         topology = self.topology
         freedoms = plural(topology.dof - topology.internal_freedoms, "degree")
         return (
             f"{self.path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
-            *limbs,
+            *self._limbs(drawn),
             f"Their topology: {topology.poc}, {freedoms} of freedom, {topology.coupling_words}.",
             "",
             *(BY_COORDINATES if self.coordinates else BY_LENGTHS),
@@ -187,6 +190,15 @@ class DraftQuestion:
             "Next:",
             *steps,
         )
+
+    def _limbs(self, drawn: Draft) -> Iterator[str]:
+        """The limbs in notation; of turns of one limb the first, as the axes of the others are long numbers."""
+        for template in drawn.templates:
+            chain = self.chains[template.members[0]]
+            text = " ".join((chain.text or plain_text(chain)).split())
+            numbers = [str(member + 1) for member in template.members]
+            turned = ", turned about z" if any(template.angles) and len(numbers) > 1 else ""
+            yield f"    {'limbs' if len(numbers) > 1 else 'limb'} {', '.join(numbers)}: {text}{turned}"
 
     def _with_modes(self, drawn: Draft, chosen: Chosen) -> Chosen:
         """The same with working modes by the senses of the knees, where every limb has one that is bent."""

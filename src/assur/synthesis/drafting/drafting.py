@@ -16,7 +16,7 @@ from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
 from assur.synthesis.drafting.homes import CLEAR, remarks
 from assur.synthesis.drafting.inputs import inputs_for
-from assur.synthesis.drafting.layout import LAYOUTS
+from assur.synthesis.drafting.layout import layouts_for
 from assur.synthesis.drafting.limbs_apart import limbs_apart
 from assur.topology.analysis import Mode
 from assur.topology.chains import Chain, ChainJoint, InnerLoop
@@ -29,7 +29,13 @@ NOWHERE = 1e-6
 """A home that is nearer to singular is so by its kind: six equal limbs evenly about an axis, whatever their sizes."""
 
 GOOD = 0.3
-"""A home that is so far from singular is taken at once."""
+"""A home that is so far from singular is taken at once, where inputs and platform are free to move."""
+
+FREE, LEAST = 0.6, 0.4
+"""The share of what they should move from home that is enough, and the least for which no other home is tried."""
+
+HELD = 0.8 * WELL
+"""The condition of what holds the platform that is low enough: rounding lengths may raise it."""
 
 PROBLEMS: dict[Problem, str] = {"inverse": "working mode", "direct": "assembly mode"}
 """Problem -> whose modes are branches of it."""
@@ -102,7 +108,7 @@ def drafted(
     enough = _lengths_enough(topology.poc)
     reasons: dict[str, None] = {}
     singular: list[Attempt] = []
-    for moved, layouts in itertools.product((False, True), LAYOUTS):
+    for moved, layouts in itertools.product((False, True), layouts_for(chains)):
         sound: list[Attempt] = []
         for number, layout in enumerate(layouts):
             if number >= ENOUGH and all(made.clearance < NOWHERE or made.held > WELL for made in sound):
@@ -111,15 +117,19 @@ def drafted(
             if made.fault or made.record is None:
                 reasons[made.fault] = None
                 continue
-            if made.clearance >= GOOD and made.held <= WELL and _lengths(made) >= enough:
+            free = made.travel >= FREE and made.held <= WELL
+            if made.clearance >= GOOD and free and _lengths(made) >= enough:
                 if asked.agrees(made, reasons):
                     return _drafted(asked.tied(made), topology)
                 continue
             sound.append(made)
         for made in _best_first(sound, enough):
-            if _is_clear(made) and asked.agrees(made, reasons):
-                return _drafted(asked.tied(made), topology)
-        singular += [made for made in sound if not _is_clear(made)]
+            if not _is_clear(made):
+                singular.append(made)
+            elif asked.agrees(made, reasons):
+                if _is_clear(tied := asked.tied(made)):  # its formulas may change lengths
+                    return _drafted(tied, topology)
+                singular.append(tied)
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
             return _drafted(asked.tied(made), topology)
@@ -154,16 +164,21 @@ def _with_names(made: Attempt) -> str:
 
 
 def _is_clear(made: Attempt) -> bool:
-    """Whether home is far enough from singular, in its constraints too."""
-    return made.clearance >= CLEAR and made.held <= WELL
+    """Whether home is far enough from singular, in its constraints too, and from folds."""
+    return made.clearance >= CLEAR and made.held <= WELL and made.travel >= LEAST
 
 
 def _best_first(made: Sequence[Attempt], enough: int) -> list[Attempt]:
-    """Attempts, first by lengths in their pose as far as there are enough, then by how far home is from singular."""
+    """Attempts, first by lengths in their pose as far as there are enough, then by how far home is from singular.
+
+    Far enough is by what inputs and platform move before a fold: of two halves of a loop that lean alike a sine may be
+    large beside it.
+    """
 
     def order(attempt: Attempt) -> tuple[float, ...]:
         far = attempt.clearance
-        return (-min(_lengths(attempt), enough), -min(far, CLEAR), max(attempt.held, WELL), -min(far, GOOD))
+        held, free = max(attempt.held, HELD), min(attempt.travel, FREE)
+        return (-min(_lengths(attempt), enough), -min(far, CLEAR), held, -free, -min(far, GOOD))
 
     return sorted(made, key=order)
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,8 +15,10 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.rates.restraint import WELL, restraint
+from assur.kinematics.rates.velocity import velocity_map_at
+from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
-from assur.performance.indices import indices_at
+from assur.model.pose import LENGTHS
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +27,15 @@ CLEAR = 0.02
 
 BENT = 0.1
 """Least measure with the platform locked (a sine) of a home in which legs are far from the end of their reach."""
+
+TRAVEL = {"length": 30.0, "angle": math.radians(15.0)}
+"""How far each input, and each coordinate of the pose, should move either way from home: mm and rad."""
+
+STEPS = 6
+"""In which it does so: a fold within one is seen, as no assembly is near behind it."""
+
+NEAR = 0.2
+"""The most that a joint moves in a step (rad, or characteristic lengths), else it is another assembly."""
 
 CONDITION = 50.0
 """A larger condition number of the Jacobian at home is said."""
@@ -71,6 +85,43 @@ def clearance(record: MechanismRecord) -> float:
     return min(float(measure) for measure in motion.measures.values())
 
 
+def travel(record: MechanismRecord) -> float:
+    """The share of `TRAVEL`, 0 to 1, that each input and each coordinate of the pose moves alone before a fold.
+
+    >>> from assur.model.registry import load_record
+    >>> travel(load_record("three_rps"))
+    1.0
+    """
+    home = home_values(record)
+    inputs = list(record.input_indices)
+    held = np.array([TRAVEL[record.coordinates[index].kind] for index in inputs])
+    changes = np.zeros((len(inputs), len(home)))
+    changes[range(len(inputs)), inputs] = held
+    names = record.platform.pose
+    posed = np.diag([TRAVEL["length" if name in LENGTHS else "angle"] for name in names])
+    return min(_moved(record, home, changes, inputs), _moved(record, home, posed, None))
+
+
+def _moved(record: MechanismRecord, home: FloatArray, changes: FloatArray, held: Sequence[int] | None) -> float:
+    """The share of changes (k, ·) of joint values that are held, or of poses, that all can be made, both ways."""
+    ways = np.concatenate([changes, -changes])
+    followed = [index for index, item in enumerate(record.coordinates) if not record.joints[item.joint].type.screw]
+    units = joint_units(record)[followed]
+    before = values = np.broadcast_to(home, (len(ways), len(home)))
+    for step in range(1, STEPS + 1):
+        start = 2.0 * values - before
+        if held is None:
+            closed = assemble(record, start, poses=pose_of(record, home) + ways * step / STEPS, near=True)
+        else:
+            start[:, held] = (home + ways * step / STEPS)[:, held]
+            closed = assemble(record, start, held=held, near=True)
+        jump = np.abs((closed.values - values)[:, followed] / units)
+        if not np.all(closed.closed) or np.max(jump, initial=0.0) > NEAR:
+            return (step - 1) / STEPS
+        before, values = values, closed.values
+    return 1.0
+
+
 def holding(record: MechanismRecord) -> float:
     """The condition number of what holds the platform at home while inputs rest."""
     return restraint(record, home_values(record)).condition
@@ -84,7 +135,7 @@ def remarks(record: MechanismRecord) -> tuple[str, ...]:
     said = []
     if float(instantaneous(record, home).measures["input"]) < BENT:
         said.append("home is near the end of a leg's reach in every layout that was tried: change the dimensions")
-    condition = float(indices_at(record, home).condition_number)
+    condition = float(velocity_map_at(record, home).condition)
     if condition > CONDITION:
         said.append(f"the condition number at home is {condition:.0f}, which is large: change the dimensions")
     elif (held := holding(record)) > WELL:

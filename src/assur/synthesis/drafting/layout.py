@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from assur.joints.revolute import REVOLUTE
 from assur.numerics.vectors import cross, dot
-from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 
 BASE, PLATFORM, HEIGHT = 200.0, 100.0, 300.0
@@ -21,8 +21,8 @@ BASE, PLATFORM, HEIGHT = 200.0, 100.0, 300.0
 WIDTH = 60.0
 """Between the two rods of a parallelogram."""
 
-SPREAD = 150.0
-"""Between the branches of an inner loop at its first link, half of it at its last."""
+FOUR = 4
+"""Joints, or parallelograms, of the least loop of a linkage."""
 
 ACROSS = 1e-9
 """Cosine below which two axes are perpendicular: both are written."""
@@ -42,6 +42,9 @@ class DraftLayout:
         wide: by how much farther the base's joints stand from the middle.
         nice: whether axes that were left general are chosen to look well, else they stay arbitrary.
         parts: into how many templates a family of limbs is divided.
+        spread: between the branches of an inner loop at its first link.
+        lean: by what share of it they come nearer to each other up to its last link.
+        elbow: by what share of it they stand farther apart in the middle.
     """
 
     knee: float = 100.0
@@ -51,6 +54,9 @@ class DraftLayout:
     wide: float = 1.0
     nice: bool = True
     parts: int = 1
+    spread: float = 150.0
+    lean: float = 0.5
+    elbow: float = 0.4
 
 
 PLAIN = (
@@ -76,8 +82,34 @@ DIVIDED = (
     DraftLayout(knee=120.0, side=50.0, twist=40.0, rough=35.0, nice=False),
     DraftLayout(knee=110.0, side=60.0, twist=60.0, rough=40.0, nice=False, parts=99),
 )
+LOOPED = (
+    # branches of inner loops that lean against each other, or away, so that a loop is far from where it folds
+    DraftLayout(knee=200.0, twist=100.0, spread=450.0, lean=0.7, elbow=0.8),
+    DraftLayout(knee=60.0, twist=100.0, spread=350.0, lean=0.7, elbow=0.8),
+    DraftLayout(knee=0.0, side=-120.0, twist=50.0, rough=20.0, elbow=0.8),
+    DraftLayout(wide=1.5, knee=60.0, side=120.0, twist=50.0, spread=250.0, lean=0.3, elbow=0.0),
+    DraftLayout(wide=1.5, knee=0.0, side=120.0, twist=-100.0, spread=350.0, elbow=0.0),
+    DraftLayout(wide=1.5, side=-120.0, twist=-50.0),
+    DraftLayout(wide=1.5, side=60.0, twist=50.0, lean=0.3),
+)
 LAYOUTS = (PLAIN, DIVIDED)
 """Layouts in the order in which they are tried; of the first group the best, and only if none will do the others."""
+
+
+def layouts_for(chains: Sequence[Chain]) -> tuple[tuple[DraftLayout, ...], ...]:
+    """Groups of layouts in the order in which they are tried: those for inner loops first, where there are some.
+
+    >>> from assur.topology.notation import parse_chains
+    >>> layouts_for(parse_chains(["R[z] R[z] R[z]"] * 2)) == LAYOUTS
+    True
+    """
+    return (LOOPED + PLAIN, DIVIDED) if looped(chains) else LAYOUTS
+
+
+def looped(chains: Sequence[Chain]) -> bool:
+    """Whether a limb has an inner loop that may fold: a nut beside its guide, three joints of one axis, does not."""
+    loops = (element for chain in chains for element in chain.elements if isinstance(element, InnerLoop))
+    return any(sum(map(len, loop.branches)) >= FOUR for loop in loops)
 
 
 @dataclass(frozen=True)
@@ -137,7 +169,7 @@ class StationRow:
         """Where a station of the row stands; branches of a loop come nearer to each other on the way."""
         inside = place / (self.count - 1) if self.count > 1 else 0.5
         x, y, z = stand.place(layout, self.share(place), self.first + round(place))
-        near = 1.0 - 0.5 * inside + 0.4 * math.sin(math.pi * inside)
+        near = 1.0 - layout.lean * inside + layout.elbow * math.sin(math.pi * inside)
         return (x + near * self.aside[0], y + near * self.aside[1], z + near * self.aside[2])
 
     def within(self, place: int, stations: int, count: int, aside: Vector, branch: int) -> StationRow:

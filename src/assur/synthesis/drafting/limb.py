@@ -17,7 +17,6 @@ from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import GeneralisedJoint
 from assur.numerics.vectors import add, dot, scaled
 from assur.synthesis.drafting.layout import (
-    SPREAD,
     WIDTH,
     DraftLayout,
     Stand,
@@ -32,7 +31,7 @@ from assur.synthesis.drafting.layout import (
 from assur.synthesis.drafting.linear import ORIGIN, Linear, Point, along, dimension, minus, plus
 from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, flattened
-from assur.topology.directions import NAMED, Vector
+from assur.topology.directions import NAMED, Vector, unit
 
 BASE_LINK, PLATFORM_LINK = "base", "platform"
 HEIGHT_NAME = "height"
@@ -40,10 +39,12 @@ PITCH, REACH = 20.0, 120.0
 ASKEW = 0.2
 """How far branches of a loop stand from being each other's mirror images, as a share of how far apart they are."""
 
+WHOLE = 10
+"""The largest of three whole numbers that say a direction which was left general."""
+
 AXES = ("x", "y", "z")
 _NEAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": UNIVERSAL}
 _FAR = {"4R": REVOLUTE, "4S": SPHERICAL, "4U": UNIVERSAL, "2US": SPHERICAL}
-_NICE: dict[JointType, tuple[Vector, ...]] = {UNIVERSAL: (NAMED["y"], NAMED["x"])}
 
 
 @dataclass(frozen=True)
@@ -184,7 +185,7 @@ class LimbDrawing:
         if joint.type.screw:
             pitch = f"{name}_pitch"
             self._dimension(name, Dimension(pitch, PITCH, f"joint {name}: advance per turn"))
-        nice = _NICE.get(joint.type) if joint.general and self.layout.nice else None
+        nice = _nice_axes(joint) if joint.general and self.layout.nice else None
         along_leg = leg if joint.general and self.layout.nice else None
         self._add(name, joint.type, (parent, child), ends.near, nice or joint.axes, pitch, along_leg)
 
@@ -216,7 +217,7 @@ class LimbDrawing:
     def _loop(self, loop: InnerLoop, parent: str, child: str, row: StationRow, place: int, count: int) -> None:
         """The branches side by side, apart in a direction that their first axis does not have."""
         number = len(loop.branches)
-        aside = _apart(loop)
+        aside = _apart(loop, self.layout.spread)
         for branch_number, branch in enumerate(loop.branches):
             share = (branch_number - (number - 1) / 2) * self.stand.sense
             moved = (aside[0] * share, aside[1] * share, aside[2] * share)
@@ -249,6 +250,18 @@ def _beside(ends: ElementEnds | None, *, before: bool) -> ElementEnds:
     return ElementEnds(point, point, at, at)
 
 
+def _nice_axes(joint: ChainJoint) -> tuple[Vector, ...]:
+    """Axes for those that were left general: level and tangential of a U, else about as they are, in whole numbers.
+
+    >>> from assur.topology.notation import parse_chain
+    >>> _nice_axes(parse_chain("U S").joints[0])
+    ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
+    """
+    if joint.type is UNIVERSAL:
+        return NAMED["y"], NAMED["x"]
+    return tuple(unit(round(WHOLE * part / max(map(abs, axis))) for part in axis) for axis in joint.axes)
+
+
 def _leg(elements: Sequence[Element], ends: Sequence[ElementEnds | None], index: int) -> Point | None:
     """The vector from the joint before a P to the one behind it; None where there is no such pair."""
     element = elements[index]
@@ -263,7 +276,7 @@ def _leg(elements: Sequence[Element], ends: Sequence[ElementEnds | None], index:
     return minus(behind.near, before.far)
 
 
-def _apart(loop: InnerLoop) -> Vector:
+def _apart(loop: InnerLoop, spread: float) -> Vector:
     """How far the branches of a loop stand from each other: across its first axis, and a little in another direction.
 
     Branches that mirror each other would be special: where they cross, two equal cranks may stand on one centre.
@@ -276,4 +289,4 @@ def _apart(loop: InnerLoop) -> Vector:
     ]
     first = axes[0] if axes else NAMED["z"]
     side, other, _ = sorted((NAMED["y"], NAMED["x"], NAMED["z"]), key=lambda unit: abs(dot(unit, first)))
-    return add(scaled(side, SPREAD), scaled(other, ASKEW * SPREAD))
+    return add(scaled(side, spread), scaled(other, ASKEW * spread))

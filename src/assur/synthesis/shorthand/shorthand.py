@@ -61,7 +61,7 @@ def read_shorthand(text: str) -> tuple[ShortLimb, ...]:
     >>> [limb.text for limb in read_shorthand("3UPS&UP")], read_shorthand("3-RPa(4S)")[0].joints
     (['3-UPS', 'UP'], ('R', 'P(4S)'))
     """
-    plain = _UNDERLINED.sub(lambda match: f"_{match[1]}_", text.strip())
+    plain = _capital(_UNDERLINED.sub(lambda match: f"_{match[1]}_", text.strip()))
     limbs: list[ShortLimb] = []
     at = 0
     while at < len(plain) or not limbs:
@@ -77,6 +77,15 @@ def read_shorthand(text: str) -> tuple[ShortLimb, ...]:
     if not 1 <= sum(limb.count for limb in limbs) <= MOST or not all(limb.count for limb in limbs):
         raise UsageError(f"'{cut(text)}': the number of limbs; allowed: 1 to {MOST}")
     return _gathered(limbs)
+
+
+def _capital(text: str) -> str:
+    """Letters without a capital among them as capitals: 3-rps, 3-rpa(4s).
+
+    >>> _capital("3-_r_pa(4s)"), _capital("3xups&up")
+    ('3-_R_Pa(4S)', '3xUPS&UP')
+    """
+    return text.upper().replace("PA", "Pa").replace("X", "x") if text == text.lower() else text
 
 
 def _limb(text: str, at: int, count: int) -> tuple[ShortLimb, int]:

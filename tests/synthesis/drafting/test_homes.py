@@ -1,0 +1,53 @@
+"""Homes of drafts with inner loops: no input is near a fold."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import assemble
+from assur.kinematics.home import home_values
+from assur.model.file.reader import read_text
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
+
+RAILS, UPRIGHT = "{P[y] R[x] R[x] | P[y] R[x] R[x]}", "{P[z] R[y] R[y] | P[z] R[y] R[y]}"
+FIVE_BAR, UPRIGHT_FIVE_BAR = "{R[z] R[z] | R[z] R[z] R[z]}", "{R[x] R[x] R[x] | R[x] R[x]}"
+KINDS = [
+    [UPRIGHT_FIVE_BAR + " R[y]", "R[x] R[x] R[x] R[y]"],
+    *([RAILS + " R[y] R[y]", other] for other in ("R[z] R[z] C[z]", "P[y] P(4R)[x] P(4R)[y]")),
+    [UPRIGHT + " R[z]", "P[x] R[y] R[y] R[z]"],
+    [RAILS, "P[y] U[x,y] S"],
+    [FIVE_BAR + " R[z]", "R[z] R[z] R[z]"],
+    [FIVE_BAR + " R[z]"] * 3,
+    [UPRIGHT_FIVE_BAR + " S", "S P[z] U[x,y]", "S P[z] U[x,y]"],
+    ["{P[y] R[x] R[x] | R[x] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]"],
+    ["{R[z] R[z] R[z] | R[z] R[z]} P[z]", "R[z] R[z] C[z]"],
+]
+MM, DEG, STEPS = 9.0, 4.5, 20
+
+
+def moved(record, index, change):
+    """Joint values (steps, n) as one input changes in equal steps, angles and shares of lengths."""
+    home, held = home_values(record), list(record.input_indices)
+    path = [home]
+    for _ in range(STEPS):
+        start = path[-1].copy()
+        start[index] += change / STEPS
+        closed = assemble(record, start, held=held, near=True)
+        assert bool(closed.closed)
+        path.append(closed.values)
+    length = characteristic_length(record)
+    return np.array(path) / [length if item.kind == "length" else 1.0 for item in record.coordinates]
+
+
+@pytest.mark.parametrize("chains", [KINDS[0], *(pytest.param(chains, marks=pytest.mark.deep) for chains in KINDS[1:])])
+def test_no_input_of_a_draft_with_inner_loops_is_near_a_fold(chains):
+    """Towards a fold equal steps of an input move other joints by ever longer ones, as a root does, and end."""
+    record = read_text(drafted(parse_chains(chains), Path("my.toml")).text, Path("my.toml"))
+    for index in record.input_indices:
+        way = MM if record.coordinates[index].kind == "length" else np.radians(DEG)
+        for change in (way, -way):
+            steps = np.linalg.norm(np.diff(moved(record, index, change), axis=0), axis=1)
+            assert np.max(steps) < 3.0 * np.min(steps)
