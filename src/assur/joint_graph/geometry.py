@@ -19,6 +19,8 @@ from assur.model.written import NumberReading
 from assur.numerics.vectors import Matrix, Vector
 
 FloatArray = NDArray[np.float64]
+WRITTEN = 1e-6
+"""Cosine of axes that are meant to be square, or sine of parallel ones: files write six digits and more."""
 ROUNDED = 1e-15
 """What is smaller than this in a unit vector, or as a share of a point's distance, is rounding of a turned limb."""
 

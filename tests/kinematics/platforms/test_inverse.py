@@ -142,3 +142,39 @@ def test_an_own_mechanism_with_parallelograms_is_complete(tmp_path):
         met = search(record, problem, given).joints
         uncrossed = [row for row in met if not crossed_parallelograms(record, row)]
         assert len(answer) == len(uncrossed) == len(distinct(record, np.array(uncrossed)))
+
+
+def three_balls_below(digits):
+    """A tripod of legs S P R whose slides are square to their hinges, axes written to so many digits."""
+    lines = ['format = 1\nname = "balls"\nunit = "mm"\nangle = "deg"\nbase = "base"\n[platform]\nlink = "platform"']
+    lines += ['point = [0, 0, 0]\npose = ["z", "theta", "psi"]\n[links]\nbase = {}\nplatform = {}']
+    joints, home = ["[joints]"], ["[home]"]
+    legs = [((209, 18, 0), (94, 25, 0)), ((-89, 168, 10), (-91, 115, 6)), ((-75, -217, -6), (-58, -75, -8))]
+    for k, (ball, hinge) in enumerate(legs, 1):
+        way = np.add((0, 0, 330), np.subtract(hinge, ball))
+        axis = np.cross(way, hinge)
+        axis, slide = (np.round(own / np.linalg.norm(own), digits).tolist() for own in (axis, way))
+        middle = (0.5 * way).tolist()
+        lines.append(f"cyl{k} = {{}}\nrod{k} = {{}}")
+        joints.append(f'A{k} = {{ type = "spherical", parent = "base", child = "cyl{k}", at = {[*ball]} }}')
+        joints.append(
+            f'P{k} = {{ type = "prismatic", parent = "cyl{k}", child = "rod{k}", at = {middle}, axis = {slide} }}'
+        )
+        joints.append(
+            f'B{k} = {{ type = "revolute", parent = "rod{k}", child = "platform", at = {middle}, '
+            f"child_at = {[*hinge]}, axis = {axis} }}"
+        )
+        home.append(f"A{k} = [0, 0, 0]\nP{k} = 0\nB{k} = 0")
+    drives = [f'[inputs]\nP{k} = {{ name = "q{k}" }}' if k == 1 else f'P{k} = {{ name = "q{k}" }}' for k in (1, 2, 3)]
+    return "\n".join([*lines, *joints, *drives, *home])
+
+
+def test_axes_of_six_digits_are_as_good_as_those_of_sixteen(tmp_path):
+    counts = []
+    for digits in (16, 9, 6):
+        path = tmp_path / f"{digits}.toml"
+        path.write_text(three_balls_below(digits), encoding="utf-8")
+        solved = inverse(load_record(path), [330.0, 0.0, 0.0])
+        assert solved.complete, solved.right
+        counts.append(len(solved))
+    assert len(set(counts)) == 1

@@ -286,7 +286,7 @@ def _closed(
 ) -> list[FloatArray]:
     """For each pair of a target (n,) and starts (S, n) the assemblies (N, n) to which these lead.
 
-    Nuts begin with the turns of home: from others eleven starts of twelve lead nowhere once the shafts are held.
+    Nuts begin with the turns of home: from others four starts of five or more lead nowhere once the shafts are held.
     """
     begun = np.concatenate([starts for _, starts in asked])
     counts = [len(starts) for _, starts in asked]

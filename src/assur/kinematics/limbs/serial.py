@@ -6,7 +6,7 @@ turns, a cylindrical joint a slide and a turn; a ball joint is one motion about 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -14,12 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame, child_frame
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import WRITTEN, characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
+EXACT = 1e-12
+"""Cosine of square axes, or sine of parallel ones, by rounding alone."""
 
 
 class NotSerialError(Exception):
@@ -107,7 +109,41 @@ def serial_limb(record: MechanismRecord, names: Sequence[str], base: str, platfo
         motions += steps if forward else [step.back for step in reversed(steps)]
         frame = child_frame(joint, parent, np.zeros(joint.type.freedoms)) if forward else parent
         link = _other(joint, link)
-    return SerialLimb(ordered, tuple(motions), frame, characteristic_length(record))
+    return SerialLimb(ordered, tuple(as_meant(motions)), frame, characteristic_length(record))
+
+
+def as_meant(motions: Iterable[ElementaryMotion]) -> Iterator[ElementaryMotion]:
+    """Motions whose axes are parallel or square to those before them where they are so to the digits that a file has.
+
+    What holds for such axes alone, as that a slide square to a hinge stays in a plane, is no longer told from rounding
+    else; solutions are closed on the joint graph as it is written.
+
+    >>> origin = np.zeros(3)
+    >>> hinge = ElementaryMotion("turn", np.array([1.0, 0.0, 0.0]), origin, 0, 1)
+    >>> slide = ElementaryMotion("slide", np.array([1e-9, 0.6, 0.8]), origin, 1, 1)
+    >>> [float(own.axis[0]) for own in as_meant([hinge, slide])]
+    [1.0, 0.0]
+    """
+    before: list[FloatArray] = []
+    for motion in motions:
+        if motion.kind == "ball":
+            yield motion
+            continue
+        axis = _as_meant(motion.axis, before)
+        before.append(axis)
+        yield motion if axis is motion.axis else replace(motion, axis=axis)
+
+
+def _as_meant(axis: FloatArray, before: Sequence[FloatArray]) -> FloatArray:
+    """An axis among those before it."""
+    for other in before:
+        if EXACT < np.linalg.norm(np.cross(axis, other)) < WRITTEN:
+            return np.asarray(np.copysign(1.0, axis @ other) * other)
+    square = np.array([other for other in before if abs(axis @ other) < WRITTEN])
+    if not len(square) or np.max(np.abs(square @ axis)) <= EXACT:
+        return axis
+    across = axis - np.linalg.pinv(square, rcond=WRITTEN) @ (square @ axis)
+    return np.asarray(across / np.linalg.norm(across))
 
 
 def _in_order(record: MechanismRecord, names: Sequence[str], base: str, platform: str) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import WRITTEN, characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.loops.hinges import NotCirclesError, middle
 from assur.kinematics.loops.orientations import Turning
@@ -207,7 +207,7 @@ def _across(joint: Joint, axis: FloatArray, parent: Turning) -> int | None:
     if parent.circle is None or parent.axis is None:
         return None
     along = abs(parent.axis @ parent.rotation @ axis)
-    if parent.rod is not None or 1e-9 < along < 1.0 - 1e-12:
+    if parent.rod is not None or WRITTEN < along < 1.0 - 0.5 * WRITTEN**2:
         raise NotCirclesError(f"{joint.name} slides obliquely on a link that turns")
     return None if along > 0.5 else parent.circle
 

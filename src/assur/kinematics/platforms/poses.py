@@ -178,14 +178,14 @@ def _mixture(rows: int, columns: int, rng: np.random.Generator) -> ComplexArray:
 
 
 def _eliminated(forms: ComplexArray) -> _Zeros | None:
-    """None where zeros that are no poses are not isolated."""
+    """None where zeros that are no poses are not isolated, or only by the digits to which a file's axes are written."""
     if not len(forms):
         return _Zeros(np.ones((1, 1), dtype=complex), np.ones(1, dtype=bool), 0, np.full(1, INFINITE))
     roots = quadratic(forms)
-    if not roots.isolated:
+    if not roots.isolated or roots.error >= ZERO:
         return None
     values = np.column_stack([np.ones(len(roots.values)), roots.values])
-    return _Zeros(values, np.full(len(values), roots.error < ZERO), 0, np.full(len(values), NEARLY_INFINITE))
+    return _Zeros(values, np.ones(len(values), dtype=bool), 0, np.full(len(values), NEARLY_INFINITE))
 
 
 def _followed(system: ExpandedSystem, starts: ComplexArray, chart: FloatArray) -> _Zeros:
