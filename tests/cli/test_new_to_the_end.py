@@ -27,7 +27,7 @@ def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
     mode = re.search(r"singularity hybrid.toml --pose 10 20 320 --mode=(\S+)", README)[1]
     verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, f"--mode={mode}", "--json")
     assert (verdict.code, verdict.json["mode"]) == (0, mode)
-    path = assur_cli("follow", "hybrid.toml", "--to", "20", "20", "330", "--json").json
+    path = assur_cli("follow", "hybrid.toml", "--to", "15", "15", "325", "--json").json
     assert path["stopped"] is None
     region = assur_cli("workspace", "hybrid.toml", "--resolution", "8", "--json").json
     assert region["how"] == "followed from home"
