@@ -101,8 +101,8 @@ def test_numbers_at_ticks_of_a_narrow_map_do_not_touch(low, high, monkeypatch):
 def test_the_walk_over_letters_sees_what_is_too_small_or_off_the_page(monkeypatch):
     context = Context(assur.load("fivebar"))
     figure = figures.draw(context.record, "structure", context)
-    figure.text(0.99, 0.5, "a word too long", fontsize=4)
-    text, box = written(figure, monkeypatch)[-1]
+    figure.text(0.99, 0.5, word := "a word too long", fontsize=4)
+    ((text, box),) = [shown for shown in written(figure, monkeypatch) if shown[0].get_text() == word]
     assert text.get_fontsize() < LEAST
     assert box.x1 > figure.bbox.x1
 

@@ -21,7 +21,7 @@ BOTH: tuple[Problem, ...] = ("inverse", "direct")
 
 
 def shown_signs(record: MechanismRecord, problems: Sequence[Problem] = BOTH) -> tuple[DescribedSign, ...]:
-    """Signs that figures show: those of closing blocks, and a file's quantities where no closed form explains them.
+    """Signs that figures show: those of the joint graph, and a file's quantities where no closed form explains them.
 
     >>> from assur.model.registry import load_record
     >>> [sign.letter for sign in shown_signs(load_record("gough_stewart"))]
@@ -30,14 +30,19 @@ def shown_signs(record: MechanismRecord, problems: Sequence[Problem] = BOTH) -> 
     ()
     """
     every = [sign for problem in problems for sign in described_signs(record, problem)]
-    return tuple(sign for sign in every if sign.places and not (sign.written and record.closed_form))
+    return tuple(sign for sign in every if not sign.written or (sign.places and not record.closed_form))
 
 
 def add_signs(view: View, skeleton: Skeleton, letters: Letters, signs: Sequence[DescribedSign]) -> None:
-    """The letter of each sign at the middle of its joints, or between it and one of them; of a limb in its colour."""
+    """The letter of each sign at the middle of its joints, or between it and one of them; of a limb in its colour.
+
+    That of a sign of the platform's place, which is about no joint, stands at the platform's point.
+    """
+    platform = skeleton.record.platform
+    turn, origin = skeleton.frames[platform.link]
     shown = {**skeleton.points, **{mark.joint.name: mark.shown for mark in skeleton.marks}}
     for sign in signs:
-        joints = np.array([shown[name] for name in sign.places])
+        joints = np.array([shown[name] for name in sign.places] or [turn @ platform.point + origin])
         middle = joints.mean(axis=0)
         anchors = np.concatenate([middle[None], (middle + joints) / 2])
         colour = _colour(skeleton, sign)
@@ -46,14 +51,14 @@ def add_signs(view: View, skeleton: Skeleton, letters: Letters, signs: Sequence[
 
 
 def _colour(skeleton: Skeleton, sign: DescribedSign) -> str:
-    """That of the limb that has all places of the sign; of several limbs, that of letters."""
+    """That of the limb that has all places of the sign; of several limbs, or none, that of letters."""
     record, colours = skeleton.record, chain_colours(skeleton)
     every = []
     for name in sign.places:
         joint = record.joints.get(name)
         links = (joint.parent, joint.child) if joint else (record.points[name].link,)
         every.append({colours[link] for link in links if link in colours} or {INK})
-    own = set.union(*every)
+    own = set().union(*every)
     return own.pop() if len(own) == 1 else INK
 
 
