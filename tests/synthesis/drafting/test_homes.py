@@ -9,7 +9,9 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.model.file.reader import read_text
+from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
+from assur.synthesis.drafting.homes import remarks, travel
 from assur.topology.notation import parse_chains
 
 RAILS, UPRIGHT = "{P[y] R[x] R[x] | P[y] R[x] R[x]}", "{P[z] R[y] R[y] | P[z] R[y] R[y]}"
@@ -51,3 +53,11 @@ def test_no_input_of_a_draft_with_inner_loops_is_near_a_fold(chains):
         for change in (way, -way):
             steps = np.linalg.norm(np.diff(moved(record, index, change), axis=0), axis=1)
             assert np.max(steps) < 3.0 * np.min(steps)
+
+
+def test_a_home_near_a_fold_is_said():
+    record = load_record("three_rps")
+    assert remarks(record, travel(record)) == ()
+    (said,) = remarks(record, 0.0)
+    assert "near a fold" in said
+    assert "less than 5 mm or 2.5 deg" in said

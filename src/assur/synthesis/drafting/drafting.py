@@ -14,7 +14,7 @@ from assur.kinematics.rates.restraint import WELL
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
-from assur.synthesis.drafting.homes import CLEAR, remarks
+from assur.synthesis.drafting.homes import CLEAR, LEAST, remarks
 from assur.synthesis.drafting.inputs import inputs_for
 from assur.synthesis.drafting.layout import layouts_for
 from assur.synthesis.drafting.limbs_apart import limbs_apart
@@ -31,8 +31,8 @@ NOWHERE = 1e-6
 GOOD = 0.3
 """A home that is so far from singular is taken at once, where inputs and platform are free to move."""
 
-FREE, LEAST = 0.6, 0.4
-"""The share of what they should move from home that is enough, and the least for which no other home is tried."""
+FREE = 0.6
+"""The share of what they should move from home that is enough."""
 
 HELD = 0.8 * WELL
 """The condition of what holds the platform that is low enough: rounding lengths may raise it."""
@@ -147,7 +147,7 @@ def _lengths_enough(poc: PocSet) -> int:
 
 
 def _drafted(made: Attempt, topology: Topology) -> Drafted:
-    return Drafted(_with_names(made), topology, () if made.record is None else remarks(made.record))
+    return Drafted(_with_names(made), topology, () if made.record is None else remarks(made.record, made.travel))
 
 
 def _with_names(made: Attempt) -> str:

@@ -34,6 +34,9 @@ TRAVEL = {"length": 30.0, "angle": math.radians(15.0)}
 STEPS = 6
 """In which it does so: a fold within one is seen, as no assembly is near behind it."""
 
+LEAST = 0.4
+"""The least share of this for which no other home is tried, and none is said to be near a fold."""
+
 NEAR = 0.2
 """The most that a joint moves in a step (rad, or characteristic lengths), else it is another assembly."""
 
@@ -127,8 +130,11 @@ def holding(record: MechanismRecord) -> float:
     return restraint(record, home_values(record)).condition
 
 
-def remarks(record: MechanismRecord) -> tuple[str, ...]:
-    """What a reader should know of home: singular, at the end of a leg's reach, badly conditioned; else nothing."""
+def remarks(record: MechanismRecord, free: float = 1.0) -> tuple[str, ...]:
+    """What a reader should know of home: singular, at a leg's end, badly conditioned, near a fold; else nothing.
+
+    `free` is its `travel`, where that was asked.
+    """
     if clearance(record) < CLEAR:
         return ("home is singular, or nearly so, in every layout that was tried: change the dimensions",)
     home = home_values(record)
@@ -142,5 +148,11 @@ def remarks(record: MechanismRecord) -> tuple[str, ...]:
         said.append(
             f"home is near a constraint singularity in every layout that was tried, {held:.0f} the condition number "
             "of what holds the platform: turn axes of some limbs, or change the dimensions"
+        )
+    if free < LEAST:
+        length, angle = (share * (free + 1.0 / STEPS) for share in TRAVEL.values())
+        said.append(
+            "home is near a fold in every layout that was tried: an input or the platform moves less than "
+            f"{length:.0f} mm or {math.degrees(angle):.1f} deg to it: change the dimensions"
         )
     return tuple(said)
