@@ -229,7 +229,7 @@ def drafted(tmp_path_factory):
 
 def test_without_a_closed_form_home_s_mode_is_followed(assur_cli, drafted, tmp_path):
     """Against a search for every mode of single poses."""
-    words = (drafted, "--along", "x=-20:100:4", "--along", "y=-40:200:4", "--at", "z=320")
+    words = (drafted, "--along", "x=-20:40:4", "--along", "y=-100:80:4", "--at", "z=320")
     data = assur_cli("sweep", *words, "--keep", "inputs,exists,status", "-o", str(tmp_path / "o"), "--json").json
     assert data["mode"] == "home"
     assert "one that is not reached so is undecided" in data["how"]
@@ -251,7 +251,7 @@ def test_without_a_closed_form_home_s_mode_is_followed(assur_cli, drafted, tmp_p
     ("name", "dimension", "at", "kinds"),
     [
         ("zeng2019", "l2=240:320:5", ("x=-15", "y=10", "z=456"), {"regular", "unreachable"}),
-        ("drafted", "J_x=-2500:-150:5", ("x=10", "y=20", "z=320"), {"regular"}),
+        ("drafted", "J_x=-1500:-220:5", ("x=10", "y=20", "z=320"), {"regular"}),
         ("bare", "g=30:430:5", ("x=0", "y=200"), {"regular", "undecided", "no_mechanism"}),
     ],
 )
