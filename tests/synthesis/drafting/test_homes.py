@@ -1,4 +1,4 @@
-"""Homes of drafts with inner loops: no input is near a fold."""
+"""Homes of drafts: no input is near a fold of an inner loop, none is where operation modes meet."""
 
 from pathlib import Path
 
@@ -8,10 +8,11 @@ import pytest
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
+from assur.kinematics.rates.restraint import WELL
 from assur.model.file.reader import read_text
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
-from assur.synthesis.drafting.homes import remarks, travel
+from assur.synthesis.drafting.homes import holding, remarks, travel
 from assur.topology.notation import parse_chains
 
 RAILS, UPRIGHT = "{P[y] R[x] R[x] | P[y] R[x] R[x]}", "{P[z] R[y] R[y] | P[z] R[y] R[y]}"
@@ -53,6 +54,15 @@ def test_no_input_of_a_draft_with_inner_loops_is_near_a_fold(chains):
         for change in (way, -way):
             steps = np.linalg.norm(np.diff(moved(record, index, change), axis=0), axis=1)
             assert np.max(steps) < 3.0 * np.min(steps)
+
+
+def test_a_home_at_which_modes_meet_is_left_along_the_one_asked_for():
+    """Upright as drawn, its first limb may turn about y beside the second; leaning, it may not."""
+    chains = parse_chains(["C[x] R[y] U[y,x]", "{P[z] R[y] | P[z] R[y] R[y]} C[y]"])
+    record = read_text(drafted(chains, Path("my.toml"), mode="translation").text, Path("my.toml"))
+    lean = home_values(record)[[f"{item.joint}.{item.component}" for item in record.coordinates].index("a1.A.rotation")]
+    assert abs(lean) > np.radians(DEG)
+    assert holding(record) < WELL
 
 
 def test_a_home_near_a_fold_is_said():

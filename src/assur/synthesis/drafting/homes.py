@@ -43,9 +43,10 @@ NEAR = 0.2
 CONDITION = 50.0
 """A larger condition number of the Jacobian at home is said."""
 
-AWAY = np.array([30.0, 20.0, 15.0, 0.0, 0.0, 0.0])
+AWAY = np.outer((1.0, 0.3), (60.0, 100.0, 30.0))
 STEP = 0.2
-"""How far a mechanism is moved from where it was drawn, where that is singular: x, y, z in mm; else in rad."""
+"""How far a mechanism is moved from where it was drawn, where that is singular: x, y, z in mm, less where that cannot
+be reached; else in rad."""
 
 
 def away(record: MechanismRecord, *, still: bool) -> FloatArray | None:
@@ -57,15 +58,16 @@ def away(record: MechanismRecord, *, still: bool) -> FloatArray | None:
         record: with the pose x, y, z, phi, theta, psi, whatever of it can be chosen.
         still: whether the platform keeps its orientation.
     """
-    start = np.zeros(len(record.coordinates))
+    home = home_values(record)
     if still:
-        pose = pose_of(record, start) + AWAY
-        assembly = assemble(record, start, poses=pose)
+        unturned = np.zeros_like(AWAY)  # as it was drawn; one that may turn closes there with it turned a little
+        poses = np.hstack([pose_of(record, home)[:3] + AWAY, unturned])
+        assembly = assemble(record, np.tile(home, (len(poses), 1)), poses=poses)
     else:
-        motion = motions(record, start, RANK_GAP)
-        shares = STEP * np.cos(1.0 + np.arange(len(start)))
-        assembly = assemble(record, motion.null @ shares * motion.scale)
-    return assembly.values if bool(assembly.closed) else None
+        motion = motions(record, home, RANK_GAP)
+        shares = STEP * np.cos(1.0 + np.arange(len(home)))
+        assembly = assemble(record, (home + motion.null @ shares * motion.scale)[None])
+    return next(iter(assembly.values[assembly.closed]), None)
 
 
 def home_table(record: MechanismRecord, values: FloatArray) -> dict[str, tuple[float, ...]]:
