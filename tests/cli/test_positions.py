@@ -78,6 +78,24 @@ def test_a_mode_that_does_not_reach_exits_4(assur_cli):
     assert "Only this mode was asked for" in run.out
 
 
+def test_a_mode_without_solution_names_those_that_have_one(assur_cli, tmp_path):
+    own = str(tmp_path / "own.toml")
+    assur_cli("new", own, "--chain", "R[z] R[z] R[z]", "--chain", "R[z] R[z]")
+    every = assur_cli("inverse", own, "10", "20", "--json").json
+    modes = [item["mode"] for item in every["solutions"]]
+    assert len(modes) > 1
+    assert every["known_modes"] == []  # nothing was left out
+    for command in (("inverse", own, "10", "20"), ("singularity", own, "--pose", "10", "20")):
+        words = (*command, "--mode", f"{modes[0]}q")
+        assert assur_cli(*words, "--json").json["known_modes"] == modes
+        run = assur_cli(*words)
+        assert run.code == 4
+        assert f"there are solutions in the modes {', '.join(modes)}" in " ".join(run.out.split())
+    beyond = assur_cli("inverse", own, "3000", "20")
+    assert beyond.out.splitlines()[0] == "own, inverse: unreachable, no solution"  # no mode was asked for
+    assert "there is no solution in any mode" in assur_cli("inverse", own, "3000", "20", "--mode", modes[0]).out
+
+
 def test_self_motion_is_a_curve_and_no_sample(assur_cli):
     words = ("direct", "zeng2019", "210", "70", "-24.5")
     data = assur_cli(*words, "--json").json

@@ -11,7 +11,7 @@ from rich.console import RenderableType
 from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import failures
+from assur.cli.positions import failures, other_modes
 from assur.cli.quantities import mode_words
 from assur.kinematics.answers.answer import missing
 from assur.kinematics.answers.at_border import mechanism_header, pose_at_border, power
@@ -50,7 +50,7 @@ def _shown(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableT
     near = ", near_singular" if data.near else ""
     yield heading(f"{data.mechanism}, singularity: {data.kind}{near}")
     yield f"at {style_of(record).pose(data.coordinates, data.pose)}, {mode_words(record, data.mode)}"
-    yield from of_modes(data)
+    yield from of_modes(data, data.kind)
     yield ""
     if data.failures:
         yield failures(data.failures)
@@ -58,12 +58,12 @@ def _shown(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableT
         yield from _factors(record, data) if record.closed_form else _measures(data)
 
 
-def of_modes(data: ConfigurationAnswer | IndicesAnswer) -> Iterable[str]:
+def of_modes(data: ConfigurationAnswer | IndicesAnswer, status: str) -> Iterable[str]:
     """By what it is home's mode or is not; else, where a mode does not reach the pose, which others do."""
     if data.home_by:
         yield data.home_by
-    elif data.known_modes:
-        yield f"in other modes there are solutions: {', '.join(data.known_modes)}"
+    elif status == "unreachable":
+        yield other_modes(data.known_modes)
 
 
 def _measures(data: ConfigurationAnswer) -> Iterable[RenderableType]:

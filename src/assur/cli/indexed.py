@@ -26,6 +26,7 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.border import input_names
 from assur.kinematics.following.home_mode import HomeMode, home_mode_at
+from assur.kinematics.position import modes_at
 from assur.kinematics.rates.units import is_mixed
 from assur.kinematics.status import Status
 from assur.mechanism import Mechanism
@@ -42,7 +43,6 @@ from assur.results.answers.indices import (
 from assur.results.json_text import plain
 from assur.results.plain_text import short, with_error
 from assur.singularity.distance import distance
-from assur.singularity.verdict import modes_at
 from assur.workspace.index_maps import NODES, IndexMaps, index_maps
 from assur.workspace.region import workspace
 
@@ -109,6 +109,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     there = not lost and (home is None or not of_home or home.reached)
     found = indices(record, pose, mode, length if there or length != "isotropic" else None)
     unreached = not of_home and Status(int(found.status)) == Status.unreachable
+    others = modes_at(record, "inverse", pose) if unreached else home.others if of_home and home is not None else ()
     answer = IndicesAnswer(
         **mechanism_header(record),
         pose=pose_at_border(record, pose).tolist(),
@@ -124,7 +125,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
         **vars(_distance(record, pose, mode)),
         failures=lost,
         home_by="" if home is None else home.words if solved is None else _other(record, solved, home),
-        known_modes=modes_at(record, pose) if unreached else home.others if of_home and home is not None else (),
+        known_modes=others,
         indices={name: plain(found[name]) for name in INDICES},
     )
     units = {name: index.unit(found) for name, index in INDICES.items()}
@@ -136,7 +137,7 @@ def _other(record: Mechanism, solutions: SolutionSet, home: HomeMode) -> str:
     if not solutions.exists.any():
         return ""
     same = any(home.is_home(record, joints) for joints in solutions.joints[solutions.exists][:1])
-    return home.words if same else f"another assembly than that of home, as far as {home.paths} paths from home tell"
+    return home.words if same else home.other_words
 
 
 def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> NearestSingularity:
@@ -185,7 +186,7 @@ def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -
     yield heading(f"{data.mechanism}, indices: {data.status}")
     of_mode = f", working mode {data.mode}" if data.mode else ""
     yield f"at {style_of(record).pose(data.coordinates, data.pose)}{of_mode}"
-    yield from of_modes(data)
+    yield from of_modes(data, data.status)
     yield ""
     if data.failures:
         yield failures(data.failures)

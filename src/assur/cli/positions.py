@@ -82,6 +82,8 @@ def _shown(record: Mechanism, data: Positions, branches: int, *, whole: bool) ->
         yield from _curves(data, style)
     if data.failures:
         yield failures(data.failures)
+    if data.of_one_mode and data.status == "unreachable":
+        yield other_modes(data.known_modes)
     yield _completeness(record, data)
     if data.architecture:
         yield f"It is {data.architecture}."
@@ -116,25 +118,25 @@ def _many(data: InverseAnswer) -> int:
 
 def _headline(record: Mechanism, data: Positions, branches: int) -> str:
     """What the rows that answer say, that of home or of the file's own mode first."""
-    among = f"among {count(branches, 'branch')}" if branches > 1 else "in this mode"
+    among = f" among {count(branches, 'branch')}" if branches > 1 else " in this mode" if data.of_one_mode else ""
     found = count(len(data.solutions), "solution")
     if isinstance(data, InverseAnswer) and data.right.startswith("not all"):
-        found, among = f"{_many(data)} solutions", "by each limb alone"
+        found, among = f"{_many(data)} solutions", " by each limb alone"
     if data.right.startswith("not proved") and not data.solutions and not data.curves:
         return "nothing was found, not proved"
     if data.status == "unreachable":
-        return f"unreachable, no solution {among}"
+        return f"unreachable, no solution{among}"
     if data.curves:
-        return f"self_motion, {count(len(data.curves), 'curve')} of poses {among}"
+        return f"self_motion, {count(len(data.curves), 'curve')} of poses{among}"
     if data.status == "not_closed" and all(item.status == "not_closed" for item in data.solutions):
         return f"not_closed, {count(len(data.solutions), 'row')}, none of them a solution"
     status, listed = data.status, Counter(item.status for item in data.solutions)
     if len(listed) == 1 or not listed:
-        return f"{status}, {found} {among}"
+        return f"{status}, {found}{among}"
     each = ", ".join(f"{number} {name}" for name, number in listed.most_common())
     own = _own_row(record, data)
     first = f"{own.status} in mode {own.mode}, " if own and own.status != status else ""
-    return f"{first}{status} at worst, {found} ({each}) {among}"
+    return f"{first}{status} at worst, {found} ({each}){among}"
 
 
 def _own_row(record: Mechanism, data: Positions) -> PoseSolution | InputsSolution | None:
@@ -193,6 +195,14 @@ def limits_cell(solution: ListedSolution | BoundedSolution) -> str:
         return "within"
     first = f"{outside[0].joint} {short(outside[0].by)} {outside[0].unit}"
     return f"{first} +{len(outside) - 1}" if len(outside) > 1 else first
+
+
+def other_modes(known: Sequence[str]) -> str:
+    """Where one mode has no solution, those that have."""
+    if not known:
+        return "there is no solution in any mode"
+    more = f" and {len(known) - ROWS} more" if len(known) > ROWS else ""
+    return f"there are solutions in the modes {', '.join(known[:ROWS])}{more}"
 
 
 def exceeded(data: Positions | CertifiedPositions) -> Iterable[str | RenderableType]:

@@ -19,7 +19,7 @@ from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
-MOST_SIGNS = 6
+MOST_SIGNS = 5
 """Signs up to which every mode is listed where an unknown one is refused."""
 
 
@@ -102,6 +102,17 @@ def branches_at(record: MechanismRecord, poses: ArrayLike, mode: str) -> Branche
     return branches(record, "inverse", border.checked_poses(record, poses), mode)
 
 
+def modes_at(record: MechanismRecord, problem: Problem, given: FloatArray) -> tuple[str, ...]:
+    """The modes of all solutions that are known at inputs, or at a pose (m,).
+
+    >>> from assur.model.registry import load_record
+    >>> modes_at(load_record("fivebar"), "inverse", np.array([0.0, 200.0]))
+    ('++', '+-', '-+', '--')
+    """
+    solutions = _answer(record, problem, given, None, "auto", crossed=False)
+    return tuple(str(label) for label in solutions.labels[solutions.exists])
+
+
 def branch_count(record: MechanismRecord, problem: Problem) -> int:
     """How many branches, real or not, the closed form of a problem has.
 
@@ -152,7 +163,10 @@ def _lettered_mode(
 
     names = list(sign_meanings(record, problem))
     if not re.fullmatch(rf"[-+0]{{{len(names)}}}[a-z]{{0,2}}(~[\w.]+)*", mode):
-        choices = ["".join(signs) for signs in itertools.product("+-", repeat=min(len(names), MOST_SIGNS))]
+        if len(names) > MOST_SIGNS:
+            choices = [f"rows of {len(names)} signs"]
+        else:
+            choices = ["".join(signs) for signs in itertools.product("+-", repeat=len(names))]
         each = f"one sign + or - for each of: {', '.join(names)}; " if names else ""
         hint = f"{each}a letter may follow, as in {'+' * len(names)}a, where several solutions share them"
         renamed = _renamed(record, problem, mode, given, method)

@@ -13,7 +13,7 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import Named, checked_joints, checked_poses
 from assur.kinematics.closure import mobility
 from assur.kinematics.following.home_mode import home_mode_at
-from assur.kinematics.position import inverse
+from assur.kinematics.position import inverse, modes_at
 from assur.kinematics.rates.finite_motion import sides, status_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import general
@@ -107,7 +107,7 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
         return _of_the_one(record, solutions)
     status = Status(int(solutions.status[0]))
     if status is Status.unreachable:
-        return replace(_nothing(status), known_modes=modes_at(record, solutions.given))
+        return replace(_nothing(status), known_modes=modes_at(record, "inverse", solutions.given))
     if status in (Status.not_closed, Status.undecided):
         return _nothing(status)
     free = mobility(record, solutions.joints[0])
@@ -182,17 +182,6 @@ def checked_pose(record: MechanismRecord, pose: ArrayLike) -> FloatArray:
     return given
 
 
-def modes_at(record: MechanismRecord, pose: FloatArray) -> tuple[str, ...]:
-    """The modes of all solutions that are known at a pose (m,).
-
-    >>> from assur.model.registry import load_record
-    >>> modes_at(load_record("fivebar"), np.array([0.0, 200.0]))
-    ('++', '+-', '-+', '--')
-    """
-    solutions = inverse(record, pose)
-    return tuple(str(label) for label in solutions.labels[solutions.exists])
-
-
 def _of_home(record: MechanismRecord, pose: FloatArray) -> Verdict:
     """The verdict on home's mode at a pose (m,)."""
     at_pose = home_mode_at(record, pose)
@@ -205,7 +194,8 @@ def _of_the_one(record: MechanismRecord, solutions: SolutionSet) -> Verdict:
     """The verdict on the only solution of a set that was found by a search."""
     joints = solutions.joints[solutions.exists]
     if not len(joints):
-        return _nothing(Status(int(solutions.overall_status)))
+        known = modes_at(record, "inverse", solutions.given)
+        return replace(_nothing(Status(int(solutions.overall_status))), known_modes=known)
     if len(joints) > 1:
         several = ", ".join(solutions.labels[solutions.exists])
         raise UsageError(
@@ -213,8 +203,8 @@ def _of_the_one(record: MechanismRecord, solutions: SolutionSet) -> Verdict:
         )
     at_pose = home_mode_at(record, solutions.given)
     same = at_pose.is_home(record, joints[0])
-    other = f"another assembly than that of home, as far as {at_pose.paths} paths from home tell"
-    return replace(verdict_at(record, joints[0]), home=same, home_by=at_pose.words if same else other)
+    said = at_pose.words if same else at_pose.other_words
+    return replace(verdict_at(record, joints[0]), home=same, home_by=said)
 
 
 def _nothing(status: Status) -> Verdict:

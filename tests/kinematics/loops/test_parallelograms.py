@@ -100,6 +100,19 @@ def test_an_h4_has_the_poses_of_a_scan_with_its_bars_either_way_up() -> None:
     assert over  # bars that stand over are met
 
 
+def test_loops_are_told_once_though_those_of_bars_that_stand_over_end_before() -> None:
+    """At some of these poses arms reach in one way in which bars stand, and the first of them do in the other."""
+    mechanism, rng = assur.load("h4_robot"), np.random.default_rng(0)
+    ends = []
+    for _ in range(6):
+        pose = np.concatenate([rng.uniform(-150, 150, 2), rng.uniform([-450, -1], [-250, 1])])
+        found = mechanism.inverse(pose, method="loops")
+        ends.append(len(found))
+        assert found.right.count("its loops in turn") == 1
+        assert "A4 and B4a (2)" in found.right
+    assert {16, 32} <= set(ends)
+
+
 def _ways_of_leg(mechanism: MechanismRecord, leg: int, end: np.ndarray) -> int:
     """How many angles of an arm bring its rod's near end to a rod's length from the far one, over a whole turn."""
     row, index = mechanism.home_values.copy(), mechanism.input_indices[leg - 1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from assur.kinematics.following.home_solution import home_solution
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.naming import sign_meanings
 from assur.kinematics.parasitic import all_coordinates, moving
+from assur.kinematics.position import modes_at
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.results.answers.position import (
@@ -49,6 +51,13 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     >>> said.status, said.complete, said.solutions[0].mode
     ('regular', True, '+++')
     """
+    found = _all_but_known_modes(solutions)
+    if found.of_one_mode and found.status == "unreachable":
+        return replace(found, known_modes=modes_at(solutions.record, solutions.problem, solutions.given))
+    return found
+
+
+def _all_but_known_modes(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     record = solutions.record
     listed, home = list(solutions), home_solution(solutions)
     shared: dict[str, Any] = {
@@ -65,6 +74,7 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
             for a, b, apart in doubles(record, solutions.joints[solutions.exists])
         ),
         "home_by": home.words,
+        "known_modes": (),
         "signs": _signs(solutions),
         "curves": tuple(
             PoseCurve(

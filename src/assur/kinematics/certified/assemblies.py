@@ -35,6 +35,7 @@ from assur.model.pose import ANGLES, LENGTHS
 from assur.numerics import rotations
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, derivative, image, parts, proves, stacked
+from assur.results.plain_text import count
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -85,15 +86,15 @@ class _Assemblies:
 
     def spinning(self) -> _Assemblies:
         """The same with the spins of rods, as many as turn while inputs and platform stand; none where more moves."""
-        count = int(general(self.record).internal)
-        if not count or not len(self.near):
+        internal = int(general(self.record).internal)
+        if not internal or not len(self.near):
             return self
         rows = len(self.evaluated([as_interval(value) for value in self.centre().T])[0])
         slopes = derivative(self.equations([*range(rows)]), Interval.of(self.centre())).middle * self.scale()
         _, sizes, right = np.linalg.svd(slopes)
-        regular = np.sum(sizes > DEPENDENT * sizes[:, :1], axis=1) == len(self.unknown) - count
-        regular &= motions(self.record, self.near).ranks.internal == count
-        return replace(self, spins=np.where(regular[:, None, None], right[:, -count:] / self.scale(), 0.0))
+        regular = np.sum(sizes > DEPENDENT * sizes[:, :1], axis=1) == len(self.unknown) - internal
+        regular &= motions(self.record, self.near).ranks.internal == internal
+        return replace(self, spins=np.where(regular[:, None, None], right[:, -internal:] / self.scale(), 0.0))
 
     def centre(self) -> FloatArray:
         """Where the unknowns (K, n) are thought to be; those of a ball joint count from there."""
@@ -249,10 +250,10 @@ def _proved(
     return found
 
 
-def _how(record: MechanismRecord, count: int, more: int, left: float, spins: int) -> str:
+def _how(record: MechanismRecord, equations: int, more: int, left: float, spins: int) -> str:
     """By what assemblies are proved, and what the equations that are no part of the proof come to."""
-    how = f"Krawczyk on {count} independent equations of the loops"
-    how += f", {spins} rods held that may spin between their ball joints" if spins else ""
+    how = f"Krawczyk on {equations} independent equations of the loops"
+    how += f", {count(spins, 'rod')} held that may spin between ball joints" if spins else ""
     return f"{how}; {more} dependent ones hold to {at_most(left)} ({record.unit} or rad), unproved" if left else how
 
 

@@ -37,6 +37,7 @@ from assur.kinematics.still import otherwise
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
+from assur.results.plain_text import count
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -92,6 +93,16 @@ class HomeMode:
             return f"home's mode does not reach it, which is proved: {self.never}{self._elsewhere}"
         straight = f": the straight one {self.stopped}" if self.stopped is not None else ""
         return f"none of {self.paths} paths from home leads there in home's mode, which is no proof{straight}"
+
+    @property
+    def other_words(self) -> str:
+        """What is said of an assembly that is not the one that was followed to.
+
+        >>> HomeMode(np.zeros(3), 1, None).other_words, HomeMode(None, 7, None).other_words[-27:]
+        ('another assembly than that of home, as far as 1 path from home tells', 'as 7 paths from home tell')
+        """
+        tell = f"{count(self.paths, 'path')} from home tell{'s' if self.paths == 1 else ''}"
+        return f"another assembly than that of home, as far as {tell}"
 
     @property
     def _elsewhere(self) -> str:

@@ -217,7 +217,9 @@ def _at_once(question: PositionQuestion, parallel: frozenset[str]) -> LoopSoluti
             return unsolved(record, False, f"not proved, since {OPEN}: with those taken as zero {error}")
         return replace(unsolved(record, True, f"there is no assembly: {error}{note}"), kept=kept)
     parts = [_standing(question, way) for way in ways]
-    right = " or ".join(dict.fromkeys(part.right for part in parts))
+    told = dict.fromkeys(part.right for part in parts)
+    # a way whose loops stop closing tells a beginning of what another tells
+    right = " or ".join(own for own in told if not any(other != own and other.startswith(own) for other in told))
     if len(parts) > 1:
         right += f", in each of {len(parts)} ways in which links that do not turn can stand"
     right += note

@@ -167,17 +167,24 @@ class PositionAnswer(SolvedProblem):
     """What is said of both problems.
 
     `signs` are those of a mode, in order, each with what holds where it is +. Where several solutions share them, a
-    letter follows, which is given at every problem anew. `architecture` says so where the mechanism is architecturally
-    singular: solutions of the direct problem are then single points of self-motions.
+    letter follows, which is given at every problem anew. `known_modes` are those that have solutions where the one that
+    was asked for has none. `architecture` says so where the mechanism is architecturally singular: solutions of the
+    direct problem are then single points of self-motions.
     """
 
     status: str
     architecture: str
     doubles: tuple[DoubleSolution, ...]
     home_by: str
+    known_modes: tuple[str, ...]
     signs: Mapping[str, str]
     curves: tuple[PoseCurve, ...]
     failures: tuple[NegativeQuantity, ...]
+
+    @property
+    def of_one_mode(self) -> bool:
+        """Whether one mode was asked for, and these are all that it has."""
+        return not self.complete and not self.right.startswith(("not all", "not proved"))
 
 
 @dataclass(frozen=True)
