@@ -117,7 +117,7 @@ def test_no_import_comes_back():
 def entrances() -> set[str]:
     """Modules that people come in by: commands, the library, what a closed form may import, what pages name."""
     pages = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").iterdir()]
-    commands = {"assur.cli.main", *(f"assur.cli.{name}" for name in COMMANDS)}
+    commands = {"assur.__main__", "assur.cli.main", *(f"assur.cli.{name}" for name in COMMANDS)}
     library = {"assur", "assur.mechanism", *OFFERED.keys() & FILES.keys()}
     return commands | library | named("\n".join(map(text_of, pages)))
 

@@ -21,6 +21,17 @@ def test_help_loads_nothing_heavy():
     assert done.returncode == 0
 
 
+def test_it_runs_as_a_module_too():
+    """Where the environment's folder of commands is not on the path."""
+    words = ["topology", "no_such_mechanism"]
+    runs = [
+        subprocess.run([*command, *words], capture_output=True, text=True, timeout=60, check=False)
+        for command in ([COMMAND], [sys.executable, "-m", "assur"])
+    ]
+    assert [run.returncode for run in runs] == [2, 2]
+    assert runs[0].stderr == runs[1].stderr != ""
+
+
 def test_negative_numbers_need_no_tricks(assur_process):
     run = assur_process("direct", "zeng2019", "162.6907", "-143.3209", "-24.6776", "--json")
     assert (run.code, run.err) == (0, "")

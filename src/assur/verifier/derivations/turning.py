@@ -226,7 +226,7 @@ class ClaimedTurn:
 
     def rotation(self, values: Mapping[str, Any], zero: IsZero) -> Matrix | None:
         """The orientation, where it is said."""
-        if self.kind not in ("fixed", "circle", "carried"):
+        if self.kind != "fixed" and (self.kind not in ("circle", "carried") or self.circle is None):
             return None
         x, y, z = (self.image(axis, values, zero) for axis in ONE)
         return transposed((x, y, z))
