@@ -75,7 +75,9 @@ def test_the_answer_says_by_what_right_they_are_all(drafted):
     pose = pose_of(drafted, home_values(drafted))
     answer = inverse(drafted, pose)
     assert answer.complete
-    assert "each limb alone, for all its roots: " in answer.right
+    assert "each limb alone, in all its ways: " in answer.right
+    for limb in answer.limbs:
+        assert f"{limb.limb.joints[0]} ({len(limb.values)})" in answer.right
 
 
 def test_a_platform_out_of_reach_has_none_and_that_is_known(tmp_path):
@@ -83,6 +85,7 @@ def test_a_platform_out_of_reach_has_none_and_that_is_known(tmp_path):
     assert main(["new", str(path), "6-RUS"]) == 0
     solutions = inverse_by_limbs(load_record(path), np.array([0.0, 0.0, 1e5, 1.0, 0.0, 0.0, 0.0]))
     assert (len(solutions.joints), solutions.complete) == (0, True)
+    assert solutions.right.count("(0)") == 6  # no leg reaches it
 
 
 @pytest.mark.parametrize("name", ["zeng2019", "tsai_platform", "linear_delta_4r", "orthoglide", "three_rrrp4r"])
@@ -104,7 +107,7 @@ def test_of_too_many_choices_those_near_home_are_listed_and_how_many_there_are(m
     home = home_values(record)
     solutions = inverse_by_limbs(record, pose_of(record, home))
     assert not solutions.complete
-    assert solutions.right.startswith("not all: there are 64, each limb alone, for all its roots")
+    assert solutions.right.startswith("not all: there are 64, each limb alone, in all its ways")
     assert [len(limb.values) for limb in solutions.limbs] == 6 * [2]
     assert len(solutions.joints) == 16
     assert np.min(np.linalg.norm((solutions.joints - home)[:, record.input_indices], axis=1)) < 1e-6

@@ -128,8 +128,11 @@ def _right(poses: Poses | OpenPoses, real: int, series: Sequence[Limb], sets: Se
         whole = f"{poses.right}, {real} real poses"
     if not sets:
         return whole
-    names = ", ".join(f"{limb.joints[0]} ({own.roots})" for limb, own in zip(series, sets[0], strict=True))
-    return f"{whole + ', then ' if poses.complex > 1 else ''}each limb alone, for all its roots: {names}"
+    ways = []
+    for limb, *own in zip(series, *sets, strict=True):
+        counts = sorted({len(at_pose.values) for at_pose in own})
+        ways.append(f"{limb.joints[0]} ({' to '.join(map(str, dict.fromkeys((counts[0], counts[-1]))))})")
+    return f"{whole + ', then ' if poses.complex > 1 else ''}each limb alone, in all its ways: {', '.join(ways)}"
 
 
 def _drawn(record: MechanismRecord, pose: FloatArray, size: float, count: int, rng: np.random.Generator) -> Frame:
