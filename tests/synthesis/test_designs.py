@@ -23,6 +23,7 @@ def test_reasons_count_in_words(in_space, in_legs):
     assert "so 1 constraint is redundant" in mixed.reason
     upu = next(design for design in in_legs.designs if design.names == ("three_upu",))
     assert upu.reason.startswith("two virtual variables, for limbs 1 and 2 close a loop with Δ = +2; ξ = 6, 6, so no")
+    assert upu.reason.endswith("the platform keeps its orientation in one operation mode, and may turn in others")
 
 
 def test_freedoms_are_what_the_loops_leave(in_space):

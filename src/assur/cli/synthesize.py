@@ -83,7 +83,8 @@ def synthesize(
         Parameter(
             name="--passive-p",
             negative="--no-passive-p",
-            help="Limbs may have P that nothing drives; they may if left out. A parallelogram is none.",
+            help="Limbs may have P, or C along its axis, that nothing drives; they may if left out. A parallelogram is"
+            " none.",
         ),
     ] = True,
     joints: Annotated[

@@ -107,7 +107,7 @@ class Design:
 
     @property
     def passive_slides(self) -> int:
-        """Number of P that nothing drives; neither a C nor a parallelogram is one."""
+        """Number of P and C along which nothing drives; a parallelogram is none."""
         return sum(limb.type.passive_slides for limb in self.limbs)
 
     @property
@@ -149,7 +149,9 @@ class Design:
             drives = min(self.determining, key=least).drives
             numbers = ", ".join("{}.{}".format(*self.actuated[index]) for index in drives)
             coupled += f", by the drives {numbers}, one of {len(self.determining)} sets that determine it"
-        return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
+        turning = "; the platform keeps its orientation in one operation mode, and may turn in others"
+        modes = turning if self.mode == "translation" else ""
+        return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}{modes}"
 
     def _closing(self, loop: Loop) -> str:
         """Which limbs close a loop.

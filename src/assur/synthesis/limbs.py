@@ -97,9 +97,9 @@ class LimbType:
 
     @property
     def passive_slides(self) -> int:
-        """Number of P that nothing drives; neither a C nor a parallelogram is one."""
+        """Number of P and C along which nothing drives; a parallelogram is none."""
         rest = (joint for place, joint in enumerate(self.chain.joints) if place not in self.driven)
-        return sum(isinstance(joint, ChainJoint) and joint.type is PRISMATIC for joint in rest)
+        return sum(isinstance(joint, ChainJoint) and joint.type in (PRISMATIC, CYLINDRICAL) for joint in rest)
 
     @cached_property
     def parallelograms(self) -> int:

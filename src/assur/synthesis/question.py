@@ -50,7 +50,7 @@ class SynthesisQuestion:
         if others:
             return f"it has {' and '.join(others)}, and limbs of {', '.join(self.joints)} are asked for"
         if limb.passive_slides and not self.passive_slides:
-            return "it has a P that nothing drives, and limbs without are asked for"
+            return "nothing drives it along its P or C, and limbs without passive slides are asked for"
         return ""
 
     def wants(self, limb: LimbType) -> bool:
@@ -104,7 +104,7 @@ def question(
             constraints at home leave it, and a finite motion of each mechanism that is listed. One limb more than the
             motion has freedoms is passive, and alone constrains the platform.
         idle: whether limbs that follow a virtual chain may have one R that stays at rest.
-        passive_slides: whether limbs may have P that nothing drives.
+        passive_slides: whether limbs may have P, or C along its axis, that nothing drives.
         joints: kinds of joints that limbs are made of, of `JOINT_KINDS`; all where it is empty.
         novelty: whether only mechanisms of the catalogue are listed, or all others.
         redundant: so many drives more than freedoms.

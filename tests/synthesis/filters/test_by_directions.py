@@ -34,7 +34,8 @@ DROPPED = {
     "idle": (["P[x] P[y] P[z] R[x]"] * 3, {}, "words", "stands still in all of 3T"),
     "motion": (["P[x] U[x,y] S"] * 3, {}, "motion", "leave the platform t³ r³"),
     "coupling": ([CRR] * 3, {"coupling": (0, 0)}, "coupling", "κ = 1, and 0 is asked for"),
-    "passive": (["C[x] P[y] R[x]"] * 3, {"passive_slides": False}, "words", "it has a P that nothing drives"),
+    "passive": (["C[x] P[y] R[x]"] * 3, {"passive_slides": False}, "words", "nothing drives it along its P or C"),
+    "passive C": (["R[x] C[x] R[x]"] * 3, {"passive_slides": False}, "words", "nothing drives it along its P or C"),
     "kinds": ([CRR] * 3, {"joints": "RPU"}, "words", "it has C, and limbs of R, P, U are asked for"),
     "known": (
         [CRR] * 3,
