@@ -118,6 +118,34 @@ def test_a_rod_oblique_to_its_hinge_is_said_to_be_real_for_a_part_of_all_directi
     assert "may point so on the other side too" in text
 
 
+@pytest.fixture
+def sloped(tmp_path):
+    """Hinges along an axis whose slope is a parameter, and links that are oblique to them."""
+    chains = ["C[x] R[x] R[x]", "R[0,0.8,0.6] R[0,0.8,0.6] C[0,0.8,0.6]", "P[z] P(4R)[x] P(4R)[y]"]
+    record = draft_of(parse_chains(chains), tmp_path)
+    text = record.file.read_text("utf-8").replace("axis = [0, 0.8, 0.6]", 'axis = [0, "cos(tau)", "sin(tau)"]')
+    slope = f'tau = {{ value = {float(np.degrees(np.arcsin(0.6)))}, meaning = "slope", sign = "any", unit = "deg" }}'
+    record.file.write_text(text.replace("[links]", f"{slope}\n\n[links]", 1), "utf-8")
+    return load_record(record.file)
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+def test_lengths_of_links_oblique_to_their_hinges_are_no_condition(sloped, problem):
+    solution = analytic_solution(sloped, problem)
+    dimensions = {*solution.symbols.parameters.values()}
+    for part in solution.sets:
+        names = {own.symbol: own.formula for own in part.definitions}
+        for condition in part.conditions:
+            while condition.free_symbols & {*names}:
+                condition = condition.subs(names)
+            assert not condition.free_symbols <= dimensions
+
+
+@pytest.mark.deep
+def test_hinges_along_a_slope_that_is_a_parameter_have_a_closed_form_that_agrees(sloped):
+    derived_closed_form(sloped)
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize("limb", OBLIQUE.values(), ids=[*OBLIQUE])
 def test_rods_oblique_to_their_hinges_are_verified(limb, tmp_path, capsys):

@@ -1,6 +1,8 @@
 """Drafts as a stranger makes them: special dimensions, other orders, names of modes that no root has alone."""
 
+import inspect
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -135,3 +137,10 @@ def test_what_was_derived_is_kept_and_so_is_why_nothing_was(tmp_path, monkeypatc
         with pytest.raises(NotDerivedError, match="it resists"):
             derived_closed_form(load_record("fivebar"))
     assert calls == ["fivebar"]
+
+
+def test_what_is_kept_is_made_anew_where_the_check_changes_that_it_has_passed(monkeypatch):
+    places = []
+    monkeypatch.setattr(kept, "code_digest", lambda *own: str(places.extend(own)))
+    kept._name(load_record("fivebar"), "closed form")
+    assert any(Path(inspect.getfile(inspect.unwrap(problems))).is_relative_to(place) for place in places)

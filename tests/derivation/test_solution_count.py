@@ -2,7 +2,10 @@
 
 import itertools
 import math
+import os
 import stat
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -87,6 +90,15 @@ def test_three_limbs_of_two_circles_each_are_counted(no_msolve, tmp_path):
     path.write_text(drafted(repeated("R[y] P(4R)[x] R[y] R[y]", 3), path).text, encoding="utf-8")
     own = solution_count(load_record(path), "direct")
     assert (own.solutions, own.program) == (2**6, "linear algebra")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="no limit of the processor's time")
+def test_time_is_that_of_the_processor():
+    """So an answer does not depend on what else runs: who waits takes no time, who works is stopped."""
+    waits, works = ([sys.executable, "-c", own] for own in ("import time; time.sleep(2.0)", "while True: pass"))
+    assert residue_systems._run(waits, 1.0).returncode == 0
+    with pytest.raises(subprocess.TimeoutExpired):
+        residue_systems._run(works, 1.0)
 
 
 def test_a_program_on_the_path_is_asked_first(tmp_path, monkeypatch):

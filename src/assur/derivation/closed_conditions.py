@@ -34,7 +34,7 @@ ZERO = sympy.Integer(0)
 MOST = 16
 """Cases of one condition that are looked at."""
 SECONDS = 10.0
-"""For the solutions of a coupled set in one case."""
+"""Of the processor, for the solutions of a coupled set in one case."""
 LONG = 400
 """Operations of a condition, written out, that is left open."""
 

@@ -128,15 +128,28 @@ class _Set:
         self.roots: list[Root] = []
         self.shared: list[sympy.Expr] = []
         self.taken = taken
+        self.sums: dict[sympy.Expr, sympy.Symbol] = {}
         self.letters = (letter for letter in SUMS if f"{letter}{number}" not in taken)
         self.equations = [self._with_names(form) for form in equations]
 
     def _with_names(self, form: Form) -> Form:
-        """What is known of an equation under one name."""
+        """What is known of an equation under one name, and so a coefficient of dimensions that may vanish."""
+        form = {key: part if key == ONE else self._short(part) for key, part in form.items()}
         known = form.get(ONE, ZERO)
         if not sympy.sympify(known).is_Add:
             return form
         return {**form, ONE: self._named(next(self.letters), known)}
+
+    def _short(self, coefficient: sympy.Expr) -> sympy.Expr:
+        """A sum of dimensions by its name, or its negative's: so sums of squares show that they never vanish."""
+        dimensions = coefficient.free_symbols <= self.witness.dimensions
+        if not coefficient.is_Add or not dimensions or self._never_zero(coefficient):
+            return coefficient
+        if -coefficient in self.sums:
+            return -self.sums[-coefficient]
+        if coefficient not in self.sums:
+            self.sums[coefficient] = self._named(next(self.letters), coefficient)
+        return self.sums[coefficient]
 
     def meeting(self) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
         """The unknowns of the others, and lines for those of the base, those first that the equations leave.
@@ -222,7 +235,9 @@ class _Set:
         return sympy.Symbol(name, real=True)
 
     def _square(self, whole: sympy.Expr, short: sympy.Expr) -> sympy.Expr:
-        """The name of a sum of squares that is divided by: written out where it never vanishes, else a condition."""
+        """The name of a sum of squares that is divided by: a condition, unless it is seen that it never vanishes."""
+        if self._never_zero(short):
+            return self._named("N", short)
         steady = self._never_zero(whole)
         square = self._named("N", sympy.factor(whole) if steady else short)
         if not steady:
@@ -263,7 +278,8 @@ class _Set:
             self._define(known, tidy(d / divisor))
             self._define(other, self._root(1 - known**2, other))
             return
-        whole = shorter({ONE: a**2 + b**2}, self.witness.circles, self.witness)[ONE]
+        square = (a**2 + b**2).subs({name: own for own, name in self.sums.items()})
+        whole = tidy(shorter({ONE: square}, self.witness.circles, self.witness)[ONE])
         a, b, d = self._named("J", a), self._named("K", b), self._named("L", d)
         square = self._square(whole, a**2 + b**2)
         root = self._root(square - d**2, a * sine - b * cosine)

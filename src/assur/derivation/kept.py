@@ -1,8 +1,8 @@
 """What was derived, kept in the user's cache: closed forms as text, or why there is none, and what is printed.
 
 The name of an entry is a digest of the mechanism's file, of the dimensions, of assur's version, of the code of this
-folder, of that which names modes and of that which prints. What is kept has passed: a derived form agrees with its
-joint graph before anyone sees it.
+folder, of that which names modes, of that which checks and of that which prints. What is kept has passed: a derived
+form agrees with its joint graph before anyone sees it.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from assur.cache import code_digest, keep, own_content
 from assur.derivation.derivation import derive
 from assur.derivation.not_derived import NotDerivedError
 from assur.kinematics.closing_blocks.kept import CODE
+from assur.kinematics.contract import check
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import IN_FULL
 from assur.kinematics.modes import Problem
@@ -107,5 +108,6 @@ def _that_agrees(record: MechanismRecord) -> str:
 def _name(record: MechanismRecord, what: str) -> str:
     text = record.description.text if record.description else ""
     own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
-    parts = (VERSION, code_digest(Path(__file__).parent, *CODE), json.dumps(own), record.name, text, what)
+    code = code_digest(Path(__file__).parent, Path(check.__file__).parent, *CODE)
+    parts = (VERSION, code, json.dumps(own), record.name, text, what)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest() + ".json"

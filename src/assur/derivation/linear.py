@@ -205,7 +205,7 @@ def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -
                 if count > size or (count == size and length + _size(other)[1] > LONG):
                     continue
                 share = tidy(-form[key] / other[key])
-                if not never_zero(share) and (everywhere or tidy(other[key]).is_Add):
+                if not never_zero(share) and (everywhere or sympy.fraction(tidy(other[key]))[0].is_Add):
                     continue
                 changed = combined(form, share, other, witness)
                 if _size(changed) < _size(form):

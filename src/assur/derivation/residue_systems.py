@@ -1,15 +1,19 @@
 """Systems of polynomials modulo a prime, and how many solutions they have: the monomials under a Groebner basis.
 
 msolve counts where it is on the PATH, in a process of its own: it is called, never linked. Else linear algebra does,
-and where matrices would be too large SymPy, in a process that is stopped when its time is over. Run as a module, this
-counts the solutions of the system on its standard input, or finds its leading monomials.
+and where matrices would be too large SymPy, in a process that is stopped when its time is over: that of the processor,
+so that what is counted does not depend on what else runs. Run as a module, this counts the solutions of the system on
+its standard input, or finds its leading monomials.
 """
 
 from __future__ import annotations
 
 import json
+import math
+import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -29,6 +33,8 @@ Polynomial = Mapping[Monomial, int]
 """Powers of the unknowns -> coefficient, below the prime."""
 MOST = 100_000
 """Monomials that are counted; more solutions are not told apart from infinitely many."""
+PATIENCE = 20
+"""Seconds by the clock for each of the processor, where others want it too."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +137,7 @@ class ResidueSystem:
             given, answer = Path(folder, "in.ms"), Path(folder, "out.ms")
             given.write_text(f"{','.join(names)}\n{self.prime}\n{_joined(self.polynomials, names)}\n", encoding="ascii")
             words = [program, "-g", "1", "-t", "1", "-f", str(given), "-o", str(answer)]
-            run = subprocess.run(words, timeout=seconds, check=False, capture_output=True)
+            run = _run(words, seconds)
             text = answer.read_text(encoding="ascii") if answer.is_file() else ""
         found = re.search(r"\[([^\]]*)\]", text)
         if run.returncode != 0 or found is None:
@@ -149,8 +155,25 @@ class ResidueSystem:
             [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials],
         ]
         words = [sys.executable, "-m", "assur.derivation.residue_systems", what]
-        run = subprocess.run(words, input=json.dumps(data), timeout=seconds, check=True, capture_output=True, text=True)
+        run = _run(words, seconds, json.dumps(data))
+        run.check_returncode()
         return json.loads(run.stdout)
+
+
+def _run(words: Sequence[str], seconds: float, text: str = "") -> subprocess.CompletedProcess[str]:
+    """A process with so much time of the processor; where there is none such limit, by the clock.
+
+    Errors:
+        TimeoutExpired.
+    """
+    limited = os.name == "posix"
+    if limited:
+        words = ["sh", "-c", f'ulimit -t {math.ceil(seconds)}; exec "$@"', "sh", *words]
+    wait = PATIENCE * seconds if limited else seconds
+    run = subprocess.run(words, input=text, timeout=wait, check=False, capture_output=True, text=True)
+    if limited and -run.returncode in (signal.SIGXCPU, signal.SIGKILL):  # which the limit sends
+        raise subprocess.TimeoutExpired(words, seconds)
+    return run
 
 
 def residue_system(

@@ -23,6 +23,7 @@ SEEDS = (1, 2)
 DRAWS = 50
 """Until every dimension has a residue: a root of a drawn number has one in two of them."""
 SECONDS = 60.0
+"""Of the processor."""
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ class GivenSymbols:
     witness: ModularWitness
 
     def __post_init__(self) -> None:
-        self.witness.sizes = self.sizes
+        self.witness.sizes, self.witness.dimensions = self.sizes, frozenset(self.parameters.values())
         self.draw(self.witness)
 
     @cached_property

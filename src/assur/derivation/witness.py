@@ -54,6 +54,7 @@ class ModularWitness:
         """What symbols are at home, where that is known."""
         self.sizes: tuple[sympy.Expr, ...] = ()
         """Sums of squares of dimensions that are the square of an axis' length."""
+        self.dimensions: frozenset[sympy.Symbol] = frozenset()
 
     def with_roots(self, radicands: Sequence[Fraction]) -> None:
         """Another prime, if need be, modulo which these numbers have roots; before anything has a value."""

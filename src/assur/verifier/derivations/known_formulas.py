@@ -85,7 +85,8 @@ class KnownFormulas:
 
     def nonzero(self, own: Term) -> bool:
         """Whether a term cannot vanish where what is allowed does not."""
-        for level in self.levels():
+        said = {name: self.names[name] for name in symbols_of([own]) if name in self.names}
+        for level in ({**said, **self.values}, *self.levels()):
             field = self.quotients([own, *self.allowed], level)
             positive = self.positive | {name for name in field.names if name.startswith("sqrt(") and "-" not in name}
             if field.never_zero(own, self.allowed, positive):

@@ -314,12 +314,10 @@ class Quotients:
         used = [k for k, degree in enumerate(factor.degrees()) if degree]
         if len(terms) == 1 and len(used) == 1 and used[0] in self._squares:  # a root does not vanish, its square not
             return self._free(self._squares[used[0]][0], allowed, positive)
-        if len({coefficient > 0 for coefficient in terms.values()}) > 1:
-            return False
         odd = {self.names[k] for powers in terms for k, power in enumerate(powers) if power % 2}
-        alone = [{self.names[k] for k, power in enumerate(powers) if power} for powers in terms]
-        if not odd <= positive:
+        if len({coefficient > 0 for coefficient in terms.values()}) > 1 or not odd <= positive:
             return False
+        alone = [{self.names[k] for k, power in enumerate(powers) if power} for powers in terms]
         zeros = {name for names in alone if len(names - positive) == 1 for name in names - positive}
         return any(names <= positive for names in alone) or any(self._needs(part, zeros) for part in allowed)
 
