@@ -7,7 +7,9 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.derivation import derive
+from assur.derivation.factor_meanings import FactorMeanings
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.solution import analytic_solution
 from assur.joint_graph.frames import frames
@@ -16,6 +18,8 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.pose import LENGTHS
 from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 AXES = dict(zip("xyz", np.eye(3), strict=True))
 NAMES = ("zeng2019", "fivebar", "orthoglide", *(pytest.param(name, marks=pytest.mark.deep) for name in (
@@ -148,3 +152,33 @@ def test_where_circles_coincide_the_platform_moves_on_the_curves_of_the_hand_wri
     for first, second in zip(*curves, strict=True):
         assert np.allclose(first.interval, second.interval, rtol=0, atol=1e-9)
         assert np.allclose(first.poses(9), second.poses(9), rtol=0, atol=1e-5)
+
+
+def draft(chains, path):
+    path.write_text(drafted(parse_chains(chains), path).text, encoding="utf-8")
+    return load_record(path)
+
+
+def told(chains, path):
+    """What the factors of a draft mean."""
+    inverse = analytic_solution(draft(chains, path), "inverse")
+    meanings, formulas = FactorMeanings(inverse), ClosedFormFormulas(inverse, inverse, {})
+    return [meanings.of(value, kind).text for _, kind, value in formulas.factors]
+
+
+def test_factors_of_slides_and_of_the_platforms_own_line_are_told(tmp_path):
+    assert told(["P[y] R[z] R[z]", "R[z] P[x]"], tmp_path / "slide.toml") == [
+        "the linkB of limb a1 and the slide of b1.E are at right angles",
+        "b1.D and the platform's point are as near as the offset of platform",
+        "the linkB of limb a1 lies along x",
+    ]
+    assert told(["R[z] P[x] R[z]", "R[z] R[z]"], tmp_path / "point.toml")[1:] == [
+        "the line from b1.E to the platform's point and the linkD of limb b1 are parallel",
+        "a1.A and a1.C coincide",
+    ]
+
+
+def test_a_distance_of_the_platforms_joints_is_told_where_it_must_not_vanish(tmp_path):
+    solution = analytic_solution(draft(["R[z] P[x] R[z]", "R[z] R[z]"], tmp_path / "joints.toml"), "direct")
+    ((condition, part),) = [(own, part) for part in solution.sets for own in part.conditions]
+    assert ReachMeanings(solution).condition(part, condition).text == "a1.C and b1.E coincide"

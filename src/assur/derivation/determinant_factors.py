@@ -32,11 +32,12 @@ def factors_of(matrix: sympy.Matrix) -> tuple[tuple[sympy.Expr, int], ...]:
 
 
 def _on_circles(factor: sympy.Expr) -> sympy.Expr:
-    """1 where a factor is the sum of the squares of an angle's cosine and sine; else the factor."""
+    """A factor without sums of the squares of an angle's cosine and sine, where it is shorter so."""
     own = factor
     for sine in factor.atoms(sympy.sin):
-        own = sympy.expand(own.subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
-    return own if own.is_number else factor
+        short = sympy.expand(sympy.expand(own).subs(sine**2, 1 - sympy.cos(sine.args[0]) ** 2))
+        own = min(own, short, key=sympy.count_ops)
+    return own
 
 
 def _alone(matrix: sympy.Matrix) -> tuple[int, int] | None:

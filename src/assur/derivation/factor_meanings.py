@@ -28,8 +28,10 @@ from assur.derivation.phrases import (
     listed,
     phrase,
 )
+from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.solution import AnalyticSolution
 from assur.derivation.symbols import circle_of
+from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import Element, ModularWitness
 from assur.model.pose import LENGTHS
 from assur.numerics.vectors import Vector, add, apply, cross, dot, subtract, triple
@@ -73,7 +75,7 @@ class FactorMeanings:
             names = [name for (_, _, other), name in along if self._same(axis, other)]
             places, links = joined(list(dict.fromkeys(names)))
             return phrase(f"{places} {text if len(links) == 1 else plural}", *links, axis)
-        for candidate, meaning in self._candidates:
+        for candidate, meaning in itertools.chain(self._candidates, self._last_candidates):
             if self._alike(values, candidate):
                 return meaning
         return phrase(SHARED if shared else FIRST[kind])
@@ -123,6 +125,11 @@ class FactorMeanings:
         return [(self._values(formula), meaning) for formula, meaning in self._formulas()]
 
     @cached_property
+    def _last_candidates(self) -> list[tuple[list[Element], GeometricPhrase]]:
+        """The same of lines within links that are not theirs, and of ways to stand that become one."""
+        return [(self._values(formula), meaning) for formula, meaning in self._last_formulas()]
+
+    @cached_property
     def _singles(self) -> list[tuple[list[Element], tuple[str, str, PhrasePart], PhrasePart]]:
         """What one link may do: values, in words of one link and of several with their axis, and the link."""
         return [
@@ -153,6 +160,32 @@ class FactorMeanings:
             yield triple(a, b, c), phrase(f"{text} are parallel to one plane", *names)
         yield from self._meeting()
 
+    def _last_formulas(self) -> Iterator[tuple[sympy.Expr, GeometricPhrase]]:
+        lines = [(own, line) for own in self.solution.loops.directions for line in self._within(own)]
+        for (own, first), (other, second) in itertools.combinations(lines, 2):
+            if own != other and self._turn_alike(first, second):
+                (one, names), (two, more) = self._called(first), self._called(second)
+                yield from self._turned(first, second, f"{one} and {two}", (*names, *more))
+        reach = ReachMeanings(self.solution)
+        for part in self.solution.sets:
+            yield from ((root.quantity, reach.merged(part, root)) for root in part.roots)
+
+    def _within(self, direction: UnknownDirection) -> Iterator[LinkLine]:
+        """All lines of links that turn with a direction, and to the platform's point."""
+        yield from self.lines.all(direction)
+        if self.solution.symbols.record.platform.link in direction.links:
+            yield from self.lines.to_platform(direction)
+
+    def _called(self, line: LinkLine) -> tuple[str, tuple[PhrasePart, ...]]:
+        """A line in words: its link where it is that one's own, else what it joins, or what slides along it."""
+        if line == self.lines.of(line.direction):
+            return "{}", (self.lines.name(line.direction),)
+        first, second = line.joints
+        end: PhrasePart = NamedJoint(second) if second else "the platform's point"
+        if first == second:
+            return "the slide of {}", (end,)
+        return "the line from {} to {}", (NamedJoint(first), end)
+
     def _single(self, line: LinkLine) -> Iterator[tuple[sympy.Expr, tuple[str, str, PhrasePart]]]:
         """A link across a direction; where it turns, along the one across that and its axis."""
         for axis in (*BASE, *self.lines.fixed_axes.values()):
@@ -173,9 +206,8 @@ class FactorMeanings:
     def _pair(self, first: LinkLine, second: LinkLine) -> Iterator[tuple[sympy.Expr, GeometricPhrase]]:
         text, names = joined([self.lines.name(own.direction) for own in (first, second)])
         p, q = first.vector, second.vector
-        if first.axis is not None and second.axis is not None and self.lines.exact.along(first.axis, second.axis):
-            yield triple(first.axis, p, q), phrase(f"{text} are parallel", *names)
-            yield dot(p, q), phrase(f"{text} are at right angles", *names)
+        if self._turn_alike(first, second):
+            yield from self._turned(first, second, text, names)
             alike = self.solution.symbols.witness.is_zero(first.square - second.square)
             for vector in (subtract(p, q), add(p, q)) if alike else ():
                 for part in self._alone(vector):
@@ -193,6 +225,17 @@ class FactorMeanings:
                 triple(axis, p, q),
                 phrase(f"{text} and the axis of {{}} are parallel to one plane", *names, NamedJoint(joint)),
             )
+
+    def _turn_alike(self, first: LinkLine, second: LinkLine) -> bool:
+        """Whether two lines turn about one direction."""
+        return first.axis is not None and second.axis is not None and self.lines.exact.along(first.axis, second.axis)
+
+    def _turned(
+        self, first: LinkLine, second: LinkLine, text: str, names: Sequence[PhrasePart]
+    ) -> Iterator[tuple[sympy.Expr, GeometricPhrase]]:
+        p, q = first.vector, second.vector
+        yield triple(first.axis or (0, 0, 0), p, q), phrase(f"{text} are parallel", *names)
+        yield dot(p, q), phrase(f"{text} are at right angles", *names)
 
     def _alone(self, vector: Vector) -> Iterator[sympy.Expr]:
         """The component of a vector that does not vanish, where only one along the axes of the base does not."""

@@ -33,7 +33,7 @@ class LinkLine:
         axis: about which it turns; none of a rod's.
         still: the vector where the angle is zero.
         square: of how long the link is along it.
-        joints: the two joints.
+        joints: the two joints; of a slide that one twice; none for the platform's point.
     """
 
     direction: UnknownDirection
@@ -79,6 +79,14 @@ class LinkLines:
                 if line is not None:
                     yield line
         yield from self._slides(direction)
+
+    def to_platform(self, direction: UnknownDirection) -> Iterator[LinkLine]:
+        """The lines of a platform that turns from its joints to its point."""
+        link = self.symbols.record.platform.link
+        own = self.placed.links[link]
+        for joint in self.joints(link) if own.axis is not None else ():
+            apart = subtract(self.symbols.geometry.platform, point_on(self.symbols, joint, link))
+            yield from self._turned(direction, own.axis or (0, 0, 0), apply(own.constant, apart), (joint.name, ""))
 
     def _slides(self, direction: UnknownDirection) -> Iterator[LinkLine]:
         """The axes of sliders on links that turn, across the axis of these."""

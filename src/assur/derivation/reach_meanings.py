@@ -68,6 +68,10 @@ class ReachMeanings:
         """What it means that a condition of a set fails."""
         return _Meeting(self, part).condition(condition)
 
+    def merged(self, part: SolvedSet, root: Root) -> GeometricPhrase:
+        """What it means that both solutions of a root are one."""
+        return _Meeting(self, part).merged(root)
+
     def known_links(self, part: SolvedSet) -> set[str]:
         """Links whose place is known before a set is solved."""
         record, loops = self.solution.symbols.record, self.solution.loops
@@ -116,13 +120,24 @@ class _Meeting:
             return self._leaning(too_far=True)
         stroke = self._stroke(root.radicand)
         if stroke is not None:
-            if len(ends := self._ends(stroke)) > PAIR:  # the vector joins two of them
+            if len(self._ends(stroke)) > PAIR:  # the vector joins two of them
                 return phrase("the vector along which {} slides is shorter than its offset", self.lines.name(stroke))
-            text, names = joined(ends)
-            beside = any(own.symbol == root.radicand and own.formula.is_Add for own in self.part.definitions)
-            return phrase(f"{text} are nearer than the offset of {{}}" if beside else f"{text} coincide",
-                          *names, *([self.lines.name(stroke)] if beside else []))  # fmt: skip
+            return self._offset(root, stroke, "nearer than")
         return self._alone() if len(self.part.directions) == 1 else self._together()
+
+    def merged(self, root: Root) -> GeometricPhrase:
+        stroke = self._stroke(root.radicand)
+        if stroke is not None and len(self._ends(stroke)) <= PAIR:
+            return self._offset(root, stroke, "as near as")
+        text, names = joined([self.lines.name(own) for own in self.part.directions])
+        return phrase(f"both ways in which {text} may stand are one", *names)
+
+    def _offset(self, root: Root, stroke: UnknownDirection, how: str) -> GeometricPhrase:
+        """How far the ends of a vector are apart that slides at some distance; they coincide where there is none."""
+        text, names = joined(self._ends(stroke))
+        if any(own.symbol == root.radicand and own.formula.is_Add for own in self.part.definitions):
+            return phrase(f"{text} are {how} the offset of {{}}", *names, self.lines.name(stroke))
+        return phrase(f"{text} coincide", *names)
 
     def _leaning(self, too_far: bool = False) -> GeometricPhrase:
         axis = self.meanings.solution.placed.links[self.part.directions[0].links[0]].axis
@@ -147,6 +162,9 @@ class _Meeting:
             return phrase(f"{text}{self._shift(', shifted to meet at {},')} coincide", *names, *self._floating)
         if condition.is_Symbol and condition.name.startswith("N") and len(self.part.directions) > 1:
             return self._one_centre()
+        line = self.own[self.part.directions[0]] if len(self.part.directions) == 1 else None
+        if line is not None and self.witness.is_zero(condition - line.square):
+            return phrase("{} and {} coincide", *map(NamedJoint, line.joints))
         text, names = joined([self.lines.name(own) for own in self.part.directions])
         return phrase(f"the linear equations of {text} lose rank", *names)
 
