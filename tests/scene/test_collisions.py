@@ -10,9 +10,8 @@ from assur.scene.bodies import bodies, solid
 from assur.scene.collisions import collisions
 from assur.scene.sampled import sampled
 from assur.scene.sizes import thickness, with_thickness
-from assur.synthesis.drafting.drafting import drafted
-from assur.topology.notation import parse_chains
 from catalogue import each
+from drawn_drafts import DRAFTS, draft
 
 
 def test_no_pair_shares_a_joint_and_every_other_is_there(every):
@@ -72,22 +71,7 @@ def test_a_single_row_is_refused():
         collisions(record, record.home_values)
 
 
-OWN = {
-    "a hybrid": ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]"],
-    "a SCARA of four limbs": ["R[z] R[z] R[z] P[z]"] * 4,
-    "ball joints on upright rails": ["P[z] U S"] * 6,
-    "legs that grow longer": ["U P S"] * 6,
-    "a passive leg": ["U P S", "U P S", "U P S", "U P"],
-    "cranks in a plane": ["R[z] R[z] R[z]"] * 3,
-    "rails along three axes": ["P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"],
-    "planar joints": ["P[x] E[x]", "P[y] E[y]", "P[z] E[z]"],
-    "cranks and universal joints": ["R[y] U S"] * 6,
-}
-
-
-@pytest.mark.parametrize("what", each(OWN, ["a hybrid"]))
-def test_nothing_of_a_draft_meets_at_home(what, tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(drafted(parse_chains(OWN[what]), path).text, encoding="utf-8")
-    record = assur.load(path)
+@pytest.mark.parametrize("what", each(DRAFTS, ["a hybrid", "parallelograms along upright rails"]))
+def test_nothing_of_a_draft_meets_at_home(what):
+    record = draft(what)
     assert collisions(record, record.home_values[None]).meeting == ()

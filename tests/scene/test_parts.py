@@ -4,11 +4,9 @@ import numpy as np
 
 import assur
 from assur.joints.universal import UNIVERSAL
-from assur.kinematics.home import home_values
-from assur.scene.bodies import bodies
 from assur.scene.companion import Companion
 from assur.scene.mesh import rgb
-from assur.scene.parts import link_layers, machine, model, parts, placed, unit
+from assur.scene.parts import link_layers, model, parts, placed, unit
 from assur.scene.skeleton import link_point, skeleton
 from assur.scene.yokes import ASIDE, trimmed, yokes
 
@@ -95,24 +93,3 @@ def test_every_part_is_of_a_link_and_every_joint_has_one(every):
     assert {item.link for item in solids} <= set(every.record.links)
     for joint in every.record.joints:
         assert any(item.name.startswith(joint) for item in solids), joint
-
-
-def test_it_is_one_machine_in_every_configuration(every):
-    """A figure of another configuration has the vertices of the page, of the view and of the prototype, moved."""
-    record = every.record
-    moved = skeleton(record, every.companion, home_values(record) + 0.05)
-    drawn = model(moved).corners
-    shapes = [part.shape.mesh(part.colour).corners for part in machine(record)]
-    first = 0
-    for part, own in zip(machine(record), shapes, strict=True):
-        rotation, origin = moved.frames[part.link]
-        np.testing.assert_allclose(drawn[first : first + len(own)], own @ rotation.T + origin, atol=1e-9 * moved.size)
-        first += len(own)
-    assert first == len(drawn)
-    assert [part.name for body in bodies(record) for part in (*body.fused, *body.pins)] == [
-        part.name for link in record.links for part in _pins_last(machine(record), link)
-    ]
-
-
-def _pins_last(made, link):
-    return sorted((part for part in made if part.link == link), key=lambda part: part.role == "pin")

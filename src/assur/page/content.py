@@ -66,7 +66,6 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "characteristicLength": characteristic_length(record),
         "parameters": _parameters(record, source),
         **resizing(record, lettered),
-        **resizing(record, lettered),
         "original": None if source is None else {"name": source.name},
         "graph": graph(record),
         "configuration": configuration(record),

@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion
 from assur.scene.hull import hull
 from assur.scene.joining import stand
-from assur.scene.part import DARK, PLATE, STEEL, Part
+from assur.scene.part import DARK, DRIVE, PLATE, STEEL, Part
 from assur.scene.rails import Rail, rails
 from assur.scene.shapes import Cuboid, Cylinder, Slab
 from assur.scene.skeleton import JointMark, Skeleton
@@ -56,7 +55,7 @@ def ground(
     """
     base = skeleton.record.base
     laid, lowest = rails(skeleton, companion), 1.6
-    feet = [mark.at for mark in skeleton.marks if mark.grounded and not mark.slides]
+    feet = [mark.at for stack in _stacks(skeleton, size) for mark in stack]
     deep = depth(skeleton, size)
     sunk = []
     for k, rail in enumerate(laid, 1):
@@ -68,6 +67,7 @@ def ground(
         lowest = max(lowest, float(1.6 + deep / size * up[2]))
         feet += [rail.start, rail.end]
     drop = _drop(skeleton, np.array(feet), lowest if laid else None, size) if feet else None
+    yield from _pillars(skeleton, size, hangs=drop is not None and drop < 0)
     if drop is None:
         for yoke in forks:
             if yoke.link == base:
@@ -89,6 +89,29 @@ def ground(
                 yield Part(f"{mark.joint.name} stand", base, shape, DARK, "stand", mark.joint.name)
 
 
+def _pillars(skeleton: Skeleton, size: float, hangs: bool) -> Iterator[Part]:
+    """What upright joints of the base stand on, or hang from: a motor, or a pillar."""
+    way = np.array([0.0, 0.0, size if hangs else -size])
+    for mark in (stack[-1 if hangs else 0] for stack in _stacks(skeleton, size)):
+        if upright(mark):
+            role, colour = ("motor", DRIVE) if mark.driven else ("pillar", DARK)
+            shape = Cylinder(mark.at + 4.6 * way, mark.at + 1.2 * way, 1.9 * size)
+            yield Part(f"{mark.joint.name} {role}", skeleton.record.base, shape, colour, role, mark.joint.name)
+
+
+def _stacks(skeleton: Skeleton, size: float) -> list[list[JointMark]]:
+    """Joints of the base that do not slide; those that lie above one another together, from below."""
+    stacks: list[list[JointMark]] = []
+    for mark in sorted(skeleton.marks, key=lambda mark: float(mark.at[2])):
+        if mark.grounded and not mark.slides:
+            below = next((stack for stack in stacks if np.linalg.norm(stack[0].at[:2] - mark.at[:2]) < size), None)
+            if below is None:
+                stacks.append([mark])
+            else:
+                below.append(mark)
+    return stacks
+
+
 def _drop(skeleton: Skeleton, feet: FloatArray, lowest: float | None, size: float) -> float | None:
     """How far the plate lies below the feet (k, 3), in thicknesses, negative where they hang; None without a plate.
 
@@ -106,7 +129,8 @@ def _drop(skeleton: Skeleton, feet: FloatArray, lowest: float | None, size: floa
     if lowest is not None:
         return (foot - low) / size + UNDER
     hangs = np.max(skeleton.cloud[:, 2]) <= np.max(feet[:, 2]) + size
-    return None if not hangs or np.ptp(feet[:, 2]) > size else -drop - 1.3
+    heads = [stack[-1].at[2] for stack in _stacks(skeleton, size)]
+    return None if not hangs or np.ptp(heads) > size else -drop - 1.3
 
 
 def _outline(feet: FloatArray, margin: float, railed: bool) -> FloatArray:
@@ -128,11 +152,7 @@ def _columns(skeleton: Skeleton, rail: Rail, top: float, size: float) -> Iterato
     lower, upper = sorted(rail.ends, key=lambda end: float(end[2]))
     if lower[2] - top < HIGH * size:
         return
-    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
-
-    def room(start: FloatArray, end: FloatArray) -> float:
-        return float(np.min(segment_distances(start, end, moving[:, 0], moving[:, 1]), initial=np.inf))
-
+    room = skeleton.room
     below = [np.array([*end[:2], top]) for end in rail.ends]
     way = (upper - lower) / np.linalg.norm(upper - lower)
     if abs(float(way[2])) < UPRIGHT:
@@ -160,21 +180,25 @@ def _on_base(skeleton: Skeleton, link: str) -> bool:
 
 
 def depth(skeleton: Skeleton, size: float) -> float:
-    """How far all rails lie below their sliders: as much as what is hinged to a slider right over its rail needs."""
-    return SUNK * size if any(held(skeleton, mark, size) for mark in skeleton.marks) else 0.0
+    """How far all rails lie below their sliders: what is hinged to a slider on its rail's line needs room."""
+    for slider in skeleton.marks:
+        for mark in _hinged_to(skeleton, slider):
+            if np.linalg.norm(np.cross(slider.axes[0], mark.at - slider.at)) < OVER * size:
+                return SUNK * size
+    return 0.0
 
 
 def held(skeleton: Skeleton, slider: JointMark, size: float) -> list[JointMark]:
-    """Joints of what slides on the base that lie right over its rail, where a thickness is given."""
-    if not _railed(slider):
+    """Joints of what slides on the base that lie right over its carriage, where a thickness is given."""
+    return [mark for mark in _hinged_to(skeleton, slider) if np.linalg.norm(mark.at - slider.at) < OVER * size]
+
+
+def _hinged_to(skeleton: Skeleton, slider: JointMark) -> list[JointMark]:
+    """The other joints of what slides on a rail of the base; none where the joint is no such slider."""
+    if not (slider.slides and slider.grounded):
         return []
     link = slider.joint.child if slider.joint.parent == skeleton.record.base else slider.joint.parent
-    of_link = [mark for mark in skeleton.marks if link in (mark.joint.parent, mark.joint.child) and mark is not slider]
-    return [mark for mark in of_link if np.linalg.norm(mark.at - slider.at) < OVER * size]
-
-
-def _railed(mark: JointMark) -> bool:
-    return mark.slides and mark.grounded
+    return [mark for mark in skeleton.marks if link in (mark.joint.parent, mark.joint.child) and mark is not slider]
 
 
 def bed(skeleton: Skeleton, slider: JointMark, deep: float) -> tuple[FloatArray, FloatArray]:
@@ -184,16 +208,10 @@ def bed(skeleton: Skeleton, slider: JointMark, deep: float) -> tuple[FloatArray,
     if not deep:
         return side, up
     half = 0.5 * skeleton.size * axis
-    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
-
-    def room(way: FloatArray) -> float:
-        middle = slider.rail - deep * way
-        gaps = segment_distances(middle - half, middle + half, moving[:, 0], moving[:, 1])
-        return float(np.min(gaps, initial=np.inf))
-
     turns = 2 * np.pi * np.arange(WAYS) / WAYS
     ways = np.cos(turns)[:, None] * up + np.sin(turns)[:, None] * side
-    rooms = np.array([room(way) for way in ways])
+    middles = slider.rail - deep * ways
+    rooms = np.array([skeleton.room(middle - half, middle + half) for middle in middles])
     way = ways[np.argmax(rooms > (1.0 - 1e-6) * rooms.max())]
     return np.cross(way, axis), way
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion
 from assur.scene.companion import companion as companion_of
 from assur.scene.ground import bed, depth, ground, held, upright
@@ -27,6 +26,7 @@ from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
 from assur.scene.sizes import USUAL, thickness
 from assur.scene.skeleton import JointMark, Rod, Skeleton
 from assur.scene.skeleton import skeleton as skeleton_at
+from assur.scene.stacking import stacked
 from assur.scene.telescopes import telescope
 from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
 
@@ -37,8 +37,8 @@ FLAT = 0.1
 DEEP = 0.2
 """A platform that is thicker than this share of its length is drawn by its bars alone."""
 
-MOTOR, ROOMY = 4.5, 6.0
-"""How far a motor reaches beyond the stand of its hinge, and the room that a thicker one asks for, in thicknesses."""
+MOTOR, LEAST, ROOMY = 4.5, 2.4, 6.0
+"""How far a motor reaches beyond the stand of its hinge, room for one, and for a thicker one, in thicknesses."""
 
 LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
 THICK = (1.0, 0.7, 0.7)
@@ -102,7 +102,7 @@ def placed(solids: tuple[Part, ...], skeleton: Skeleton) -> Mesh:
 def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]) -> Iterator[Part]:
     """Every part with its shape still in the base frame."""
     layers, forks = link_layers(skeleton), yokes(skeleton)
-    skeleton = trimmed(skeleton, forks, unit(skeleton))
+    skeleton = stacked(trimmed(skeleton, forks, unit(skeleton)), unit(skeleton))
     for yoke in forks:
         if yoke.link != skeleton.record.base:
             yield from _yoke(skeleton, yoke, colours.get(yoke.link, PLAIN))
@@ -192,26 +192,27 @@ def _joint(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> It
         reach = _reach(mark, layers, mark.grounded or over) * size * mark.axes[0]
         shape = Cylinder(mark.at - reach, mark.at + reach, 0.7 * size)
         yield Part(f"{joint.name} pin", joint.parent, shape, colour, "pin", joint.name)
-    if mark.grounded and not mark.slides and upright(mark):
-        foot = Cylinder(mark.at - [0, 0, 4.6 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
-        role = "motor" if mark.driven else "pillar"
-        yield Part(f"{joint.name} {role}", skeleton.record.base, foot, colour, role, joint.name)
-    elif mark.grounded and mark.driven and joint.type.turns == 1 and not mark.slides:
-        shape = _motor(skeleton, mark, layers)
-        yield Part(f"{joint.name} motor", skeleton.record.base, shape, DRIVE, "motor", joint.name)
+    if mark.grounded and mark.driven and joint.type.turns == 1 and not mark.slides and not upright(mark):
+        motor = _motor(skeleton, mark, layers)
+        if motor is not None:
+            yield Part(f"{joint.name} motor", skeleton.record.base, motor, DRIVE, "motor", joint.name)
 
 
-def _motor(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Cylinder:
-    """On the pin of a driven hinge of the base, on that side of its stand where what moves leaves more room."""
+def _motor(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Cylinder | None:
+    """On the pin of a driven hinge of the base, on that side of its stand where what moves leaves more room.
+
+    None where rods lie along the pin on both sides: the colour of the pin alone says that it is driven.
+    """
     size, axis = unit(skeleton), mark.axes[0]
-    moving = np.array([rod.points for rod in skeleton.rods if rod.link != skeleton.record.base]).reshape(-1, 2, 3)
     near = (_reach(mark, layers, True) + 0.1) * size
 
     def room(sense: float) -> float:
         first, last = (mark.at + sense * (near + far * size) * axis for far in (1.0, MOTOR))
-        return float(np.min(segment_distances(first, last, moving[:, 0], moving[:, 1]), initial=np.inf))
+        return skeleton.room(first, last)
 
     sense = max((1.0, -1.0), key=room)
+    if room(sense) < LEAST * size:
+        return None
     thick = float(np.clip(room(sense) / ROOMY, size, USUAL * skeleton.size))
     start = mark.at + sense * near * axis
     return Cylinder(start, start + sense * (MOTOR - 1.0) * thick * axis, 1.6 * thick)
@@ -248,10 +249,12 @@ def _slider(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> I
         where, link, name = tube.end, joint.parent, "collar"
         yield Part(f"{joint.name} tube", joint.parent, tube, STEEL, "tube", joint.name)
         yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
-    sides = size * np.array([2.6 * axis, 1.9 * side, 1.15 * up] if not deep else [3.2 * axis, 3.2 * side, 1.15 * up])
+    over = held(skeleton, mark, size) if deep else []
+    pins = np.array([_reach(mark, layers, True) * mark.axes[0] for mark in over if len(mark.axes)]).reshape(-1, 3)
+    along, wide = (np.max(np.abs(pins @ way), initial=least) for way, least in ((axis, 2.6), (side, 1.9)))
+    sides = size * np.array([along * axis, wide * side, 1.15 * up])
     middle = where + (0.1 * size - deep) * up
     yield Part(f"{joint.name} {name}", link, Cuboid(middle, sides), colour, name, joint.name)
-    over = held(skeleton, mark, size) if deep else []
     for mark_over in over:
         for shape in stand(mark_over, middle - mark_over.at, (_reach(mark_over, layers, True) - 0.4) * size, size):
             yield Part(f"{mark_over.joint.name} stand", link, shape, colour, "stand", mark_over.joint.name)

@@ -10,12 +10,17 @@ from numpy.typing import NDArray
 from assur.kinematics.home import home_values
 from assur.scene.companion import Companion
 from assur.scene.companion import length as formula_value
+from assur.scene.sizes import thickness
 from assur.scene.skeleton import JointMark, Skeleton
 from assur.scene.strokes import strokes
 
 FloatArray = NDArray[np.float64]
 HALF, BEYOND = 0.24, 0.06
 """Half the length of a rail without strokes, and how far it goes beyond one, as shares of the mechanism's size."""
+
+CARRIAGE, ROOM, TRIES = 4.0, 4.0, 20
+"""A rail is so long on either side of its slider at least, and keeps so far from what is hinged elsewhere, in
+thicknesses; how many lengths are tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +69,20 @@ def _way(skeleton: Skeleton, companion: Companion, mark: JointMark, home: FloatA
         low, high = strokes(record)[mark.joint.name]
         low, high = low - BEYOND * skeleton.size, high + BEYOND * skeleton.size
     else:
-        low, high = stands[1] - HALF * skeleton.size, stands[1] + HALF * skeleton.size
+        low, high = (stands[1] + sense * _free(skeleton, mark, sense * mark.axes[0]) for sense in (-1.0, 1.0))
     return min(low, *stands), max(high, *stands)
+
+
+def _free(skeleton: Skeleton, mark: JointMark, way: FloatArray) -> float:
+    """How far a rail without a stroke goes one way (3,) from its slider: to `HALF`, or to what is in its way."""
+    pairs = [{joint.parent, joint.child} for joint in skeleton.record.joints.values()]
+    own = set().union(*(pair for pair in pairs if mark.joint.child in pair))
+    size = thickness(skeleton.record)
+    lengths = np.linspace(HALF * skeleton.size, CARRIAGE * size, TRIES)
+    return next(
+        (float(length) for length in lengths if skeleton.room(mark.at, mark.at + length * way, own) > ROOM * size),
+        float(lengths[-1]),
+    )
 
 
 def _overlap(first: Rail, second: Rail, size: float) -> bool:

@@ -64,12 +64,10 @@ def rods_apart(drawn: Skeleton) -> float:
 
     Crossing rods meet however thin they are.
     """
-    straight = [(rod.link, rod.points) for rod in drawn.rods if rod.size > 0]
-    straight += [(plate.link, plate.points[[k, k - 1]]) for plate in drawn.plates for k in range(len(plate.points))]
     hinged = [{joint.parent, joint.child} for joint in drawn.record.joints.values()]
     asked = [
         (near, far)
-        for (first, near), (second, far) in combinations(straight, 2)
+        for (first, near), (second, far) in combinations(drawn.bars(), 2)
         if first != second and {first, second} not in hinged
     ]
     if not asked:

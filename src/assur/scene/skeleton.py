@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from assur.joint_graph.frames import Frame, frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion
 
 FloatArray = NDArray[np.float64]
@@ -110,6 +112,20 @@ class Skeleton:
     def size(self) -> float:
         """Longest side of the box about all points; of a mechanism in one point its characteristic length."""
         return float(np.max(np.ptp(self.cloud, axis=0))) or characteristic_length(self.record)
+
+    def bars(self, but: Collection[str] = ()) -> list[tuple[str, FloatArray]]:
+        """Link and ends (2, 3) of everything straight: rods, and what is drawn between any two corners of a plate.
+
+        `but` names links that are left out.
+        """
+        straight = [(rod.link, rod.points) for rod in self.rods if rod.size > 0]
+        straight += [(plate.link, np.array(pair)) for plate in self.plates for pair in combinations(plate.points, 2)]
+        return [(link, points) for link, points in straight if link not in but]
+
+    def room(self, start: FloatArray, end: FloatArray, but: Collection[str] = ()) -> float:
+        """Least distance of a straight line from what moves, infinite where nothing does; without links of `but`."""
+        moving = np.array([points for _, points in self.bars({self.record.base, *but})]).reshape(-1, 2, 3)
+        return float(np.min(segment_distances(start, end, moving[:, 0], moving[:, 1]), initial=np.inf))
 
     @property
     def chains(self) -> tuple[str, ...]:

@@ -1,8 +1,5 @@
 """A GLB file read back by hand: chunks, bounds of accessors, names, and frames of the joint graph."""
 
-import json
-import struct
-
 import numpy as np
 import pytest
 
@@ -14,33 +11,7 @@ from assur.scene.bodies import home_skeleton
 from assur.scene.companion import companion
 from assur.scene.motion import closed_motion
 from assur.scene.parts import parts, placed
-
-WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
-TYPES = {5126: "<f4", 5125: "<u4"}
-
-
-def read(data):
-    """The document and the values of every accessor."""
-    magic, version, size = struct.unpack_from("<4sII", data)
-    assert (magic, version, size) == (b"glTF", 2, len(data))
-    length, kind = struct.unpack_from("<I4s", data, 12)
-    assert kind == b"JSON"
-    assert length % 4 == 0
-    document = json.loads(data[20 : 20 + length])
-    rest, kind = struct.unpack_from("<I4s", data, 20 + length)
-    assert kind == b"BIN\0"
-    assert rest % 4 == 0
-    binary = data[28 + length :]
-    assert len(binary) == rest >= document["buffers"][0]["byteLength"]
-    values = []
-    for item in document["accessors"]:
-        view = document["bufferViews"][item["bufferView"]]
-        width = WIDTHS[item["type"]]
-        assert view["byteOffset"] % 4 == 0
-        assert view["byteLength"] == 4 * width * item["count"]
-        found = np.frombuffer(binary, TYPES[item["componentType"]], item["count"] * width, view["byteOffset"])
-        values.append(found.reshape(-1, width))
-    return document, values
+from glb_file import read
 
 
 @pytest.fixture(scope="module", params=["fivebar", "zeng2019"])
