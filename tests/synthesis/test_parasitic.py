@@ -4,6 +4,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
+import assur
 from assur.model.topologies import load_topology
 from assur.synthesis.arrangements import TURNS, arranged_classes
 from assur.synthesis.assembly import Range, Sought, known_members
@@ -82,6 +83,13 @@ def test_the_two_upr_and_two_rpu_turn_about_a_line_of_the_base_and_one_of_the_pl
     ]
     assert {(design.dof, len(design.actuated), design.coupling_degree) for design in designs} == {(3, 4, 1)}
     assert {len(part.drives) for design in designs for part in design.determining} == {3}
+    whole = designs[0]
+    analysed = assur.topology(
+        [chain.text for chain in whole.chains], actuate=[f"{limb}.{joint}" for limb, joint in whole.actuated]
+    )
+    assert [part.coupling_degree for part in whole.determining] == [
+        part.coupling_degree for part in analysed.determining
+    ]
 
 
 @pytest.mark.deep

@@ -21,7 +21,7 @@ from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.limbs import FREE
 from assur.synthesis.positions import DIGITS, SWAP
 from assur.synthesis.required import RequiredMotion
-from assur.synthesis.shared_axes import LABELS, End, Lines, axes_at, with_common_lines
+from assur.synthesis.shared_axes import LABELS, End, Lines, axes_at, on_common_lines, with_common_lines
 from assur.topology.chains import Chain
 from assur.topology.directions import Vector, parallel
 
@@ -68,8 +68,14 @@ class ArrangedClasses:
 
     def chains(self, limbs: Sequence[CandidateLimb]) -> tuple[Chain, ...]:
         """How limbs, one of each class, stand in it."""
-        placed = [limb.chains[place] for limb, place in zip(limbs, self.places, strict=True)]
-        return with_common_lines(placed, self.lines)
+        return with_common_lines(self._placed(limbs), self.lines)
+
+    def unnamed(self, limbs: Sequence[CandidateLimb]) -> list[Chain]:
+        """The same, joints not named through the mechanism."""
+        return on_common_lines(self._placed(limbs), self.lines)
+
+    def _placed(self, limbs: Sequence[CandidateLimb]) -> list[Chain]:
+        return [limb.chains[place] for limb, place in zip(limbs, self.places, strict=True)]
 
     @property
     def members(self) -> int:

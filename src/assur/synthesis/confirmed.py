@@ -74,10 +74,15 @@ def confirmed(limbs: Sequence[CandidateLimb], places: Sequence[int]) -> Confirme
         for number, (limb, place) in enumerate(zip(limbs, places, strict=True), 1)
         for edge in limb.edges[place]
     )
+    return counted_by(edges)
+
+
+def counted_by(edges: Sequence[Edge]) -> Confirmed:
+    """F, and what is left of it with the driven joints locked, of a mechanism at the configurations of its edges."""
     matrix = closure(edges)
     freedoms = matrix.shape[-1]
     locked = np.delete(matrix, input_columns(edges), axis=-1)
-    return Confirmed(freedoms - rank(matrix), locked.shape[-1] - rank(locked), edges)
+    return Confirmed(freedoms - rank(matrix), locked.shape[-1] - rank(locked), tuple(edges))
 
 
 def _of_limb(edge: Edge, limb: str) -> Edge:

@@ -13,7 +13,8 @@ import numpy as np
 from assur.synthesis.arrangements import TURNS, ArrangedClasses
 from assur.synthesis.assembly import MechanismFamily, Rejected, Sought, known_members, mechanism
 from assur.synthesis.classes import Class, simplicity
-from assur.synthesis.designs import Design, DeterminingSet, least
+from assur.synthesis.confirmed import Confirmed, counted_by
+from assur.synthesis.designs import Design
 from assur.synthesis.home_constraints import constraints_of, home_twists
 from assur.synthesis.limb_motions import CandidateLimb, limb_by_itself
 from assur.synthesis.limbs import FREE, Actuators, LimbType, short_types
@@ -22,9 +23,8 @@ from assur.synthesis.required import RequiredMotion
 from assur.synthesis.tally import Tally
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse
-from assur.topology.chains import Chain
-from assur.topology.counting.coupling import Decomposition
 from assur.topology.counting.inputs import numbered_inputs
+from assur.topology.counting.mobility import mobility
 from assur.topology.facts import Topology
 from assur.topology.screws.configurations import ImmobileError, configurations
 from assur.topology.screws.linkage import Linkage
@@ -110,59 +110,55 @@ def moved(arranged: ArrangedClasses, sought: Sought) -> MechanismFamily:
 
 
 def _outcome(limbs: Sequence[CandidateLimb], arranged: ArrangedClasses, sought: Sought) -> Design | Rejected:
+    """The mechanism of these limbs, if it moves as is sought: by ranks first, which are known much faster than all."""
+    if _is_blocked(place(arranged.unnamed(limbs))):
+        return Rejected()
     chains = arranged.chains(limbs)
     driven = [f"{number}.{place + 1}" for number, limb in enumerate(limbs, 1) for place in limb.type.driven]
-    linkage = _driven(chains, driven)
+    linkage = place(chains, actuated=numbered_inputs(chains, driven))
     try:
-        if not _keeps_its_freedoms(linkage, sought.motion):
+        counted = _counted(linkage, sought.motion)
+        if counted is None:
+            return Rejected()
+        if counted.left or (counted.decoupling is None and not counted.determining):
+            return Rejected(unfixed=True)
+        degree = counted.loops.coupling_degree
+        if degree is None or degree not in sought.degrees:
             return Rejected()
         topology = analyse(linkage, chains)
-        determining = _determining(topology)
-        if determining:
-            topology = analyse(_driven(chains, [driven[index] for index in min(determining, key=least).drives]), chains)
     except (UnclearRankError, ImmobileError):  # modes meet at home, or its freedom does not last
         return Rejected()
     except RoutesDisagreeError as error:
         return Rejected(disagreement=error.message)
     if not _is_parasitic(topology, sought.motion):
         return Rejected()
-    if topology.coupling_degree is None or topology.decoupling is None:
-        return Rejected(unfixed=True)
-    if topology.coupling_degree not in sought.degrees:
-        return Rejected()
-    known = topology.known
-    loops = Decomposition(topology.loops, topology.assur_chains)
-    decoupling = None if determining else topology.decoupling
+    decoupling = None if counted.determining else counted.decoupling
     return Design(
-        tuple(limbs), arranged.places, chains, known, loops, decoupling, topology.dof, "home", determining=determining
+        limbs=tuple(limbs),
+        places=arranged.places,
+        chains=chains,
+        known=topology.known,
+        loops=counted.loops,
+        decoupling=decoupling,
+        dof=topology.dof,
+        mode="home",
+        determining=counted.determining,
     )
 
 
-def _driven(chains: Sequence[Chain], numbers: Sequence[str]) -> Linkage:
-    return place(chains, actuated=numbered_inputs(chains, numbers))
-
-
-def _determining(topology: Topology) -> tuple[DeterminingSet, ...]:
-    """The sets of redundant drives that determine a mechanism."""
-    names = topology.inputs
-    return tuple(
-        DeterminingSet(tuple(map(names.index, one.drives)), one.coupling_degree)
-        for one in topology.determining
-        if one.coupling_degree is not None
-    )
-
-
-def _keeps_its_freedoms(linkage: Linkage, motion: RequiredMotion) -> bool:
-    """Whether a displaced platform has as many freedoms as a motion; known much faster than its topology.
-
-    Most that lose some lose them to the second order already, which needs no displacement.
-    """
+def _is_blocked(linkage: Linkage) -> bool:
+    """Whether it loses freedoms to the second order: most that lose some do, and it needs no displacement."""
     home = second_order(linkage, np.zeros(len(screw_tree(linkage).scales)))
-    if home.freedoms < home.instantaneous:
-        return False
+    return home.freedoms < home.instantaneous
+
+
+def _counted(linkage: Linkage, motion: RequiredMotion) -> Confirmed | None:
+    """The ranks where it is displaced; none where it has not the freedoms of a motion there, or a joint rests."""
     displaced = edges(linkage, configurations(linkage, len(SEEDS)))
     t, r, dim = dimensions(motion_space(displaced, linkage.base, linkage.platform))
-    return dim == motion.dim < t + r
+    resting = mobility(displaced, linkage.base, linkage.platform).idle
+    counted = counted_by(displaced)
+    return counted if counted.dof == dim == motion.dim < t + r and not resting else None
 
 
 def _is_parasitic(topology: Topology, motion: RequiredMotion) -> bool:

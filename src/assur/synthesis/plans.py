@@ -27,7 +27,7 @@ Step = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
 
-ASSEMBLED, MOVED, MEGABYTES = 0.003, 0.03, 0.015
+ASSEMBLED, MOVED, MEGABYTES = 0.003, 0.05, 0.015
 """What a mechanism costs that is looked at, as measured: seconds by twists at given poses, seconds where it is moved by
 a finite amount, megabytes."""
 

@@ -41,11 +41,16 @@ def with_common_lines(chains: Sequence[Chain], lines: Lines) -> tuple[Chain, ...
     >>> [chain.text for chain in shared]
     ['U[x@O,y] P[z] R[y]', 'R[x]@O P[z] S']
     """
+    return parse_chains([plain_text(chain) for chain in on_common_lines(chains, lines)])
+
+
+def on_common_lines(chains: Sequence[Chain], lines: Lines) -> list[Chain]:
+    """The same without names of joints through the mechanism, which take as long as to place it."""
     labelled = list(chains)
     for end, numbers in lines.items():
         for number in numbers:
             labelled[number] = _labelled(labelled[number], end)
-    return parse_chains([plain_text(chain) for chain in labelled])
+    return labelled
 
 
 def sharing_ends(chain: Chain) -> tuple[bool, bool]:
