@@ -52,7 +52,8 @@ def direct_problem(mechanism):
     if callable(kernel):
         return f"closed form, {2 ** len(mechanism.modes.assembly)} branches"
     if isinstance(kernel, Eliminant):
-        return f"one polynomial of degree {kernel.degree}"
+        one = f"polynomial of degree {kernel.roots}"
+        return f"a {one} for each of {2 ** len(kernel.signs)} choices of sign" if kernel.signs else f"one {one}"
     return f"a homotopy, {kernel.degree} complex solutions"
 
 

@@ -1,4 +1,4 @@
-"""Three circles that carry the balls of a platform: one polynomial of degree 16, its components, its real poses."""
+"""Three circles that carry the balls of a platform: one polynomial, its components, its real poses."""
 
 import json
 import math
@@ -10,8 +10,10 @@ import pytest
 import sympy
 
 from assur.cli.main import main
+from assur.derivation.document import document
 from assur.derivation.numeric_example import example_branches
 from assur.derivation.platform_rotation import platform_rotation
+from assur.derivation.printed_derivation import printed_derivation
 from assur.derivation.solution import analytic_solution
 from assur.derivation.solution_count import solution_count
 from assur.kinematics.position import direct
@@ -69,6 +71,14 @@ def test_its_components_are_two_quartics_each_root_with_a_mirror_image(three_rps
     own = three_rps.components
     assert [(part.degree, part.irreducible, part.no_tower) for part in own.parts] == [(4, True, True)] * 2
     assert (own.solutions, own.count, own.total) == (2, 16, "(4 + 4) x 2")
+
+
+def test_the_degree_of_both_quartics_and_their_mirror_images_is_never_told_as_one(three_rps):
+    printed = document(printed_derivation(load_record("three_rps"), {"direct": three_rps}, {}))
+    assert "its square alone" in printed
+    for text in (printed, three_rps.components.sentence):
+        assert "degree 16" not in text
+        assert "polynomials of degree 4" in text
 
 
 def test_at_every_pose_one_of_the_written_quartics_vanishes(three_rps):

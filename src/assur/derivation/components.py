@@ -80,10 +80,11 @@ class Components:
         many = f"the product of {len(degrees)} irreducible polynomials" if len(degrees) > 1 else "an irreducible one"
         size = f"of degree {degrees[0]}" if len({*degrees}) == 1 else f"of degrees {', '.join(map(str, degrees))}"
         tower = ", whose groups are no 2-groups: no tower of square roots gives their roots"
-        two = "each root has two solutions: " if self.solutions > 1 else ""
+        whole = "what is left over" if self.solutions > 1 else f"the polynomial of degree {self.count}"
+        two = ", and a sign tells each solution from its mirror image" if self.solutions > 1 else ""
         return (
-            f"the polynomial of degree {self.count} is {many} {size} in the {function} of {self.angle}"
-            f"{tower if all(part.no_tower for part in self.parts) else ''}; {two}{self.total} = {self.count}"
+            f"{whole} is {many} {size} in the {function} of {self.angle}"
+            f"{tower if all(part.no_tower for part in self.parts) else ''}{two}: {self.total} = {self.count}"
         )
 
 

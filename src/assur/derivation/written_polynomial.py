@@ -86,10 +86,9 @@ class WrittenPolynomial(WrittenEquations):
             yield tuple(self.line(own.symbol, own.formula) for own in conic)
         yield f"A line, a conic and the circle of ${last}$ are left. With"
         yield tuple(self.line(own.symbol, own.formula) for own in eliminant.meeting)
-        yield (
-            f"they meet in a point where this vanishes, "
-            rf"in $t = \tan(\frac{{1}}{{2}}{base})$ a polynomial of degree {eliminant.degree}:"
-        )
+        own = self.solution.components
+        tangent = rf", in $t = \tan(\frac{{1}}{{2}}{base})$ a polynomial of degree {eliminant.degree}"
+        yield f"they meet in a point where this vanishes{tangent if own is None or own.unknown is None else ''}:"
         yield (WrittenFormula("0", self.writer.rows(eliminant.steps[-1].formula, 3)),)
         yield from self._components()
         yield "At each of its roots, with"
@@ -127,8 +126,8 @@ class WrittenPolynomial(WrittenEquations):
             return
         letter, other = self.writer.text(own.unknown), self.writer.text(self._beside(own.unknown))
         yield (
-            f"${other}$ is in it by its square alone. So it is one in ${letter}$, whose degree is half of that, and "
-            f"{many} {size}{tower}. Each root has two solutions, which are mirror images of each other: "
+            rf"${other}$ is in it by its square alone, with $1 - {self.writer.text(own.unknown**2)}$ for which it is "
+            f"{many} {size} in ${letter}${tower}. The sign of ${other}$ tells each solution from its mirror image: "
             f"${own.total.replace('x', TIMES)} = {own.count}$."
         )
 
