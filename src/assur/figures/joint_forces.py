@@ -73,7 +73,7 @@ def _draw(context: Context) -> Drawing:
         letters.avoid(way)
         if np.linalg.norm(item.force) >= SMALLEST * passed.largest > 0.0:
             name = letter(context.record.joints[item.joint].alias or item.joint)
-            letters.add(view(start), f"{name} {np.linalg.norm(item.force):.3g}", clear=5.0, fontsize=SMALL)
+            letters.add(view(start), f"{name} {np.linalg.norm(item.force):.3g} N", clear=5.0, fontsize=SMALL)
     letters.place()
     return Drawing(page.figure, _data(context, passed))
 

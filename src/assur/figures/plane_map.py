@@ -36,6 +36,9 @@ ACROSS, LEAST, TALLEST, LEFT = 3, 44.0, 50.0, 14.0
 """Maps in a row of panels, the share of the page's width that one needs there, the height of one at most, and the room
 to the left of the first; in mm."""
 
+BELOW, BETWEEN = 10.0, 3.0
+"""Room below a map in mm: for the numbers of its axis, and where the same axis stands below another map."""
+
 
 @dataclass(frozen=True, eq=False)
 class MappedPlane:
@@ -154,26 +157,34 @@ def coloured(
 
 
 def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Figure, list[tuple[Axes, Axes]]]:
-    """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide."""
+    """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide.
+
+    The axes are the same: what they are stands left of the first and below the last map of a row and of a column.
+    """
     wide, tall = plane.spans
-    left, bottom, top = LEFT, 10.0, 6.5
+    head, top = 5.0, 6.5
     columns = side_by_side(plane.context.page, ACROSS, LEAST)
-    cell = plane.context.page / columns
-    page = cell * min(columns, len(titles))  # as wide as its maps, which are as large as where there are more
     rows = math.ceil(len(titles) / columns)
-    tallest = min(TALLEST, (HIGHEST - 5.0) / rows - bottom - top)
-    scale = min((cell - left - right) / wide, tallest / tall)
-    row = bottom + top + scale * tall
-    height = rows * row + 5.0
+    below = [BELOW if (k + 2) * columns > len(titles) else BETWEEN for k in range(rows)]  # the last of some column
+    tallest = min(TALLEST, (HIGHEST - head - sum(below)) / rows - top)
+    cell = (plane.context.page - LEFT) / columns  # as large as where there are more
+    scale = min((cell - right) / wide, tallest / tall)
+    page = LEFT + cell * min(columns, len(titles))
+    height = head + sum(below) + rows * (top + scale * tall)
     figure = new_figure(page, height)
     headed(figure, plane)
     pairs = []
     for k, title in enumerate(titles):
-        x, y = (k % columns) * cell + left, height - 5.0 - (k // columns) * row - top - scale * tall
+        line, column = divmod(k, columns)
+        x = LEFT + column * cell
+        y = height - head - (line + 1) * (top + scale * tall) - sum(below[:line])
         axes = figure.add_axes((x / page, y / height, scale * wide / page, scale * tall / height))
         bar = figure.add_axes(((x + scale * wide + 2.0) / page, y / height, 2.5 / page, scale * tall / height))
         middle, above = (x + scale * wide / 2) / page, (y + scale * tall + 1.5) / height
         figure.text(middle, above, f"({chr(97 + k)}) {title}", ha="center", fontsize=TEXT)
+        for axis, shown in ((axes.yaxis, column == 0), (axes.xaxis, k + columns >= len(titles))):
+            axis.label.set_visible(shown)
+            axis.set_tick_params(labelleft=shown, labelbottom=shown)
         pairs.append((axes, bar))
     return figure, pairs
 
