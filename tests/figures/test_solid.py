@@ -2,16 +2,20 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import PathPatch
 
 import assur
 from assur.figures import catalogue as figures
+from assur.figures.canvas import POINTS, canvas, inside
 from assur.figures.letters import letter
 from assur.figures.model import lettered
-from assur.figures.solid import model_camera
+from assur.figures.solid import model_camera, triad
+from assur.scene.camera import plane
 from assur.scene.companion import Companion
+from assur.scene.shapes import Ball, Cuboid
 
 SHOWN = ("fivebar", "zeng2019", "gough_stewart")
 THINNEST = 0.25
@@ -91,3 +95,17 @@ def test_a_mechanism_that_hangs_from_its_base_is_seen_from_below(name, hangs):
     context = figures.Context(assur.load(name))
     context.__dict__["companion"] = Companion()
     assert (model_camera(context).toward[2] < 0) == hangs
+
+
+def test_the_directions_stand_where_the_model_does_not():
+    """In the lower left corner if they may; else in another one."""
+    lower_left = Cuboid(np.array([-0.7, -0.7, 0.0]), 0.3 * np.eye(3)).mesh("#000000")
+    camera = plane("x", "y")
+    for mesh, free in ((Ball(np.zeros(3), 0.3).mesh("#000000"), (True, True)), (lower_left, (False, True))):
+        view = inside(camera, np.array([[-1.0, -1, 0], [1, 1, 0]]), (0.0, 0.0, 60.0, 60.0))
+        page = canvas(60.0, 60.0)
+        room = np.array([[0.0, 0.0], [60.0, 60.0]]) * POINTS
+        box = triad(page, mesh, view, room)
+        assert tuple(box.mean(axis=0) < room.mean(axis=0)) == free
+        assert np.all(box[0] >= room[0] - 1e-9)
+        assert np.all(box[1] <= room[1] + 1e-9)

@@ -85,6 +85,13 @@ def test_colours_stay_apart(colours, vision):
     assert closest(colours, vision)[0] >= APART
 
 
+def test_a_limb_has_one_colour_in_sketches_and_as_solids():
+    def nearest(drawn):
+        return min(part.LINKS, key=lambda solid: difference(drawn, solid, "normal"))
+
+    assert tuple(map(nearest, sketch.CHAINS)) == part.LINKS
+
+
 def test_the_measure_itself():
     np.testing.assert_allclose(lab("#ffffff", "normal"), [100, 0, 0], atol=0.02)
     np.testing.assert_allclose(lab("#ff0000", "normal"), [53.24, 80.09, 67.20], atol=0.05)  # of sRGB red, tabulated

@@ -1,16 +1,18 @@
 """The ground: rails where sliders run, stands under joints, forks where no plate can be."""
 
 import numpy as np
+import pytest
 
 import assur
 from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
 from assur.scene.companion import companion
 from assur.scene.ground import across, upright
-from assur.scene.parts import parts
+from assur.scene.parts import machine, parts
 from assur.scene.skeleton import Skeleton, skeleton
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
+from drawn_drafts import draft
 
 
 def of_base(every):
@@ -55,3 +57,12 @@ def test_across_is_across():
         side, up = across(axis)
         np.testing.assert_allclose([side @ axis, up @ axis, side @ up], 0.0, atol=1e-12)
         np.testing.assert_allclose([np.linalg.norm(side), np.linalg.norm(up)], 1.0)
+
+
+def test_what_an_upright_joint_stands_on_reaches_a_plate_that_rails_have_lowered():
+    record = draft("a hybrid")
+    made = {part.name: part.shape for part in machine(record) if part.link == record.base}
+    motor, column = made["b1.I motor"], made["b1.I column"]
+    plate = made["base plate"]
+    assert column.start[2] == pytest.approx(plate.outline[0, 2] + plate.along[2])
+    assert column.end == pytest.approx(motor.start)

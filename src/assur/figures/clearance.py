@@ -65,10 +65,11 @@ def drawn(record: MechanismRecord, nearest: Nearest) -> Drawing:
     half, tall = PAGE / 2, HEIGHT - HEAD
     whole = placed(solids, body)
     _heading(page, record, nearest)
-    _whole(page, whole, inside(camera, whole.corners.reshape(-1, 3), (3, 3, half - 6, tall - 6)), gap, (half, tall))
+    view = inside(camera, whole.corners.reshape(-1, 3), (3, 3, half - 6, tall - 6))
+    _whole(page, whole, view, gap, (half, tall))
     pair = tuple(part for part in solids if part.link in nearest.links)
     _close(page, record, nearest, _near(pair, body, gap, _width(record, nearest)), camera, gap, (half, 0.0, half, tall))
-    triad(page, camera, np.array([22.0, 20.0]))
+    triad(page, whole, view, np.array([[0.0, 0.0], [half, tall]]) * POINTS)
     data = {
         "unit": record.unit,
         "links": list(nearest.links),

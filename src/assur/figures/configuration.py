@@ -59,8 +59,8 @@ def scene_of(context: Context, examples: Sequence[SingularExample]) -> Scene:
     return Scene(examples, body, found, mesh, model_camera(context))
 
 
-def draw_model(page: Canvas, scene: Scene, rectangle: tuple[float, float, float, float], size: float) -> None:
-    """The model with the links that the meaning names in colour, and lines through its points."""
+def draw_model(page: Canvas, scene: Scene, rectangle: tuple[float, float, float, float], size: float) -> View:
+    """The model with the links that the meaning names in colour, and lines through its points; and how it is seen."""
     left, bottom, width, height = rectangle
     view = inside(scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2))
     weight = 1.0 if size == LETTER else 0.7
@@ -72,6 +72,7 @@ def draw_model(page: Canvas, scene: Scene, rectangle: tuple[float, float, float,
         page.disc(at, 1.8, RED, PAPER, 0.5, order=13)
         letters.add(at, letter(name), clear=4.0, fontsize=size, color=RED, weight="bold", bbox=_plate())
     letters.place()
+    return view
 
 
 def _plate() -> dict[str, Any]:

@@ -15,7 +15,7 @@ from assur.figures.coordinates import shown
 from assur.figures.labels import label
 from assur.figures.meaning import typeset
 from assur.figures.page import side_by_side
-from assur.figures.solid import model_camera, triad
+from assur.figures.solid import triad
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import LETTER, SMALL, TEXT
 from assur.joint_graph.points import quantity
@@ -158,13 +158,13 @@ def _draw_one(kind: str, context: Context) -> Drawing:
     lines = textwrap.wrap(example.factor.meaning, min(56, int(width / LETTERS)))
     foot = max(19.0, 10.0 + 4.5 * len(lines))
     page = canvas(width, height + foot + 4.0)
-    draw_model(page, scene, (4.0, foot, width - 8.0, height), LETTER)
+    view = draw_model(page, scene, (4.0, foot, width - 8.0, height), LETTER)
     for k, line in enumerate(lines):
         start = f"{condition(example.factor)}: " if k == 0 else ""
         at = (width / 2 * POINTS, (8.5 + 4.5 * (len(lines) - 1 - k)) * POINTS)
         page.text(at, start + typeset(line, scene.body), fontsize=LETTER)
     page.text((width / 2 * POINTS, 3.3 * POINTS), _where(context, scene.example), fontsize=SMALL)
-    triad(page, model_camera(context), np.array([18.0, 70.0]))
+    triad(page, scene.mesh, view, np.array([[0.0, foot], [width, foot + height]]) * POINTS)
     return Drawing(page.figure, {"unit": context.record.unit, "examples": _data(scene)})
 
 

@@ -31,8 +31,8 @@ FloatArray = NDArray[np.float64]
 OUTLINE, CREASE = 0.7, 0.4
 """Widths of lines in points; what a journal prints is not under 0.25."""
 
-HALO, TRIAD = 2.2, 15.0
-"""Width of the white edge of a letter, and length of the directions X, Y, Z, in points."""
+HALO, TRIAD, AROUND = 2.2, 15.0, 9.0
+"""Width of the white edge of a letter, length of the directions X, Y, Z and room about them, in points."""
 
 BELOW = -14
 """Elevation in degrees from which a mechanism is seen that hangs from its base, whose plate would hide it."""
@@ -82,8 +82,7 @@ def _draw(context: Context) -> Drawing:
         if np.linalg.norm(line[1] - line[0]) > LONG:
             letters.avoid(line)
     name_points(page, view, body, letters, drawn)
-    triad(page, camera, np.array([22.0, 20.0]))
-    letters.avoid_box(np.array([[0.0, 0.0], [46.0, 46.0]]))
+    letters.avoid_box(triad(page, mesh, view, np.array([(0.0, 0.0), page.figure.get_size_inches() * 72.0])))
     letters.place()
     return Drawing(page.figure, _data(context, body))
 
@@ -191,13 +190,40 @@ def strokes(page: Canvas, lines: FloatArray, width: float, order: float = 2.1, c
     )
 
 
-def triad(page: Canvas, camera: Camera, at: FloatArray) -> None:
-    """The directions X, Y, Z of the base at a place (2,) of the page, in points."""
-    for name, axis in zip("XYZ", np.eye(3), strict=True):
-        way = TRIAD * camera.project(axis)
+def triad(page: Canvas, mesh: Mesh, view: View, room: FloatArray) -> FloatArray:
+    """The directions X, Y, Z of the base, and the box (2, 2) that they fill, in points.
+
+    They stand in the corner of a box (2, 2) that least of the model covers, if that may be in the lower left one.
+    """
+    ways = TRIAD * view.camera.project(np.eye(3))
+    box = np.array([ways.min(axis=0, initial=0.0) - AROUND, ways.max(axis=0, initial=0.0) + AROUND])
+    corners = [
+        np.array(
+            [
+                room[0, 0] - box[0, 0] if left else room[1, 0] - box[1, 0],
+                room[0, 1] - box[0, 1] if low else room[1, 1] - box[1, 1],
+            ]
+        )
+        for low in (True, False)
+        for left in (True, False)
+    ]
+    grid = box[0] + np.stack(np.meshgrid(*2 * [np.linspace(0, 1, 8)]), axis=-1).reshape(-1, 2) * (box[1] - box[0])
+    triangles = view(mesh.corners.reshape(-1, 3)).reshape(-1, 3, 2)
+    at = min(corners, key=lambda corner: _covered(triangles, corner + grid))
+    for name, way in zip("XYZ", ways, strict=True):
         if np.linalg.norm(way) > 3.0:
             page.arrow(at, at + way, BLUE, 0.8, 11, head=5)
             page.text(at + way * (1 + 5.5 / np.linalg.norm(way)), f"${name}$", fontsize=SMALL, color=BLUE)
+    return np.asarray(at + box)
+
+
+def _covered(triangles: FloatArray, points: FloatArray) -> int:
+    """How many of some points (n, 2) lie in triangles (f, 3, 2)."""
+    sides = np.roll(triangles, -1, axis=1) - triangles
+    ways = points[:, None, None] - triangles
+    turns = sides[..., 0] * ways[..., 1] - sides[..., 1] * ways[..., 0]  # (n, f, 3)
+    inside = np.all(turns > 0, axis=2) | np.all(turns < 0, axis=2)
+    return int(np.sum(np.any(inside, axis=1)))
 
 
 def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:

@@ -78,6 +78,7 @@ def ground(
     columns = [shape for rail in sunk for shape in _columns(skeleton, rail, top, size)]
     feet += [shape.start for shape in columns]
     outline = _outline(np.array(feet)[:, :2], 3.2 * size, bool(laid))
+    yield from _under_pillars(skeleton, top, size)
     corners = np.column_stack([outline, np.full(len(outline), top - 1.3 * size)])
     yield Part("base plate", base, Slab(corners, np.array([0.0, 0.0, 1.3 * size])), PLATE, "plate")
     for k, shape in enumerate(columns, 1):
@@ -97,6 +98,15 @@ def _pillars(skeleton: Skeleton, size: float, hangs: bool) -> Iterator[Part]:
             role, colour = ("motor", DRIVE) if mark.driven else ("pillar", DARK)
             shape = Cylinder(mark.at + 4.6 * way, mark.at + 1.2 * way, 1.9 * size)
             yield Part(f"{mark.joint.name} {role}", skeleton.record.base, shape, colour, role, mark.joint.name)
+
+
+def _under_pillars(skeleton: Skeleton, top: float, size: float) -> Iterator[Part]:
+    """Columns on a plate that lies lower than the feet of upright joints, as it does where rails ask for more room."""
+    for mark in (stack[0] for stack in _stacks(skeleton, size)):
+        foot = mark.at - np.array([0.0, 0.0, 4.6 * size])
+        if upright(mark) and foot[2] > top:
+            column = Cylinder(np.array([*foot[:2], top]), foot, size)
+            yield Part(f"{mark.joint.name} column", skeleton.record.base, column, DARK, "column", mark.joint.name)
 
 
 def _stacks(skeleton: Skeleton, size: float) -> list[list[JointMark]]:

@@ -11,7 +11,7 @@ DARK = "#5d656c"
 PLATE = "#d5d8da"
 DRIVE = "#ecad1d"
 STAGE = "#ecd777"
-LINKS = ("#2381d4", "#41c793", "#cb6635", "#b473b4", "#94cdf3", "#8a7965")
+LINKS = ("#2381d4", "#41c793", "#cb6635", "#94cdf3", "#b473b4", "#8a7965")
 PLAIN = "#b4bac0"
 
 

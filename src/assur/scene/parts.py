@@ -40,6 +40,10 @@ DEEP = 0.2
 MOTOR, LEAST, ROOMY = 4.5, 2.4, 6.0
 """How far a motor reaches beyond the stand of its hinge, room for one, and for a thicker one, in thicknesses."""
 
+BROAD = 2.8
+"""So many times as broad are arms and motors at most, where neighbouring joints elsewhere ask for thin links: they keep
+off the plate of the base."""
+
 LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
 THICK = (1.0, 0.7, 0.7)
 """Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
@@ -121,6 +125,11 @@ def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]
     yield from ground(skeleton, companion, forks, unit(skeleton), lambda mark: _reach(mark, layers, True))
 
 
+def _broad(skeleton: Skeleton) -> float:
+    """How many times as broad as a bar an arm or a motor is, which no other joint is near: as usual, if it may be."""
+    return float(np.clip(USUAL * skeleton.size / unit(skeleton), 1.0, BROAD))
+
+
 def _yoke(skeleton: Skeleton, yoke: Yoke, colour: str) -> Iterator[Part]:
     for role, shape in yoke.shapes(unit(skeleton)):
         yield Part(f"{yoke.joint} {role}", yoke.link, shape, colour, role, yoke.joint)
@@ -155,13 +164,23 @@ def _rod(skeleton: Skeleton, rod: Rod, layer: int, colour: str) -> Iterator[Part
     if normal is None:
         yield Part(name, rod.link, Cylinder(start, end, 0.75 * size), colour)
         return
+    width = 1.15 * size * (_broad(skeleton) if _is_arm(skeleton, rod) else 1.0)
     for shift in LAYERS[layer]:
         aside = shift * size * normal
-        shape = Bar(start + aside, end + aside, normal, 1.15 * size, THICK[layer] * size)
+        shape = Bar(start + aside, end + aside, normal, width, THICK[layer] * size)
         yield Part(name, rod.link, shape, colour)
     if layer:
         for spacer in webs(skeleton, rod, max(LAYERS[layer]) * size * normal, 0.7 * size):
             yield Part(f"web {' '.join(rod.ends)}", rod.link, spacer, colour, "web")
+
+
+def _is_arm(skeleton: Skeleton, rod: Rod) -> bool:
+    """Whether a rod begins at a hinge of the base, and what shares no joint with it leaves room for a broad one."""
+    pairs = [{joint.parent, joint.child} for joint in skeleton.record.joints.values()]
+    own = set().union(*(pair for pair in pairs if rod.link in pair))
+    feet = [mark.at for mark in skeleton.marks if mark.grounded and mark.joint.type.turns == 1 and not mark.slides]
+    begins = any(np.min(np.linalg.norm(rod.points - foot, axis=1)) < 1e-9 * skeleton.size for foot in feet)
+    return begins and skeleton.room(rod.points[0], rod.points[1], own) > (1.15 * BROAD + 1.5) * unit(skeleton)
 
 
 def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
@@ -213,7 +232,8 @@ def _motor(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Cy
     sense = max((1.0, -1.0), key=room)
     if room(sense) < LEAST * size:
         return None
-    thick = float(np.clip(room(sense) / ROOMY, size, USUAL * skeleton.size))
+    first, last = (mark.at + sense * (near + far * size) * axis for far in (1.0, MOTOR))
+    thick = float(np.clip(skeleton.room(first, last, {mark.joint.child}) / ROOMY, size, _broad(skeleton) * size))
     start = mark.at + sense * near * axis
     return Cylinder(start, start + sense * (MOTOR - 1.0) * thick * axis, 1.6 * thick)
 
