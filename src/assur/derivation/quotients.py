@@ -13,6 +13,8 @@ from typing import Any
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
+from assur.derivation.patience import check_patience
+
 Fraction = tuple[fmpq_mpoly, fmpq_mpoly]
 
 
@@ -104,6 +106,7 @@ class RationalFunctions:
 
     def reduced(self, own: fmpq_mpoly) -> fmpq_mpoly:
         """A polynomial with squares of roots of numbers written out, and of sines or cosines where it is shorter so."""
+        check_patience()
         for sine, cosine in self._angles:
             other = self._without_square(own, sine, cosine), self._without_square(own, cosine, sine)
             own = min(own, *other, key=len)

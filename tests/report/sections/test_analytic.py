@@ -2,6 +2,7 @@
 
 import pytest
 
+from assur.derivation.solution import analytic_solution
 from assur.model.registry import load_record
 from assur.report.sections import analytic
 from assur.report.sections.analytic import analytic_solutions
@@ -62,3 +63,13 @@ def test_a_second_report_reads_what_the_first_one_derived(tmp_path, monkeypatch)
     assert [[*analytic_solutions(load_record("fivebar"))] for _ in range(2)] == [[section]] * 2
     assert [*analytic_solutions(load_record("fivebar", l1=0.5))] == [section]
     assert calls == [{}, {}, {"l1": 0.5}]
+
+
+def test_a_report_says_what_it_did_not_wait_for(monkeypatch):
+    """Given up is not the same as not derived; and only what a report asks for is given up."""
+    record = load_record("fivebar", l1=0.51)
+    monkeypatch.setattr(analytic, "SECONDS", 0)
+    (section,) = analytic._sections(record)
+    assert "direct and the inverse problem is not known" in section.text
+    assert section.results == []
+    assert analytic_solution(record, "direct").branches == 2

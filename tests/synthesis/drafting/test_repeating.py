@@ -3,7 +3,7 @@ import pytest
 
 from assur.errors import UsageError
 from assur.synthesis.drafting.repeating import repeated
-from assur.topology.notation import parse_chain
+from assur.topology.notation import parse_chain, plain_text
 
 
 def test_every_axis_is_turned_and_general_ones_stay_general():
@@ -43,3 +43,9 @@ def test_limbs_that_turn_about_one_point_share_it(text, shared):
 def test_a_count_has_bounds(count):
     with pytest.raises(UsageError, match="allowed: 2 to 60"):
         repeated("R[z] R[z] R[z]", count)
+
+
+def test_the_first_limb_is_as_it_was_written():
+    """To the last digit, so that a file says [0.3, 0.1, 1] where its author did."""
+    text = "R[1,0,0.3]@O R[0.2,1,0]@O R[0.3,0.1,1]@O"
+    assert plain_text(repeated(text, 3)[0]) == text

@@ -12,6 +12,7 @@ from typing import Any
 
 from assur.derivation.kept import derived_text
 from assur.derivation.not_derived import NotDerivedError
+from assur.derivation.patience import TooLongError, patience
 from assur.derivation.printed_derivation import PrintedProblem, printed_derivation
 from assur.derivation.printed_velocities import PrintedVelocities
 from assur.derivation.reasons import left_out, sentences
@@ -30,6 +31,9 @@ HELD = {
     True: "each closes every loop, which was held against them modulo a prime of 160 bits",
     False: "NOT ALL of them close every loop",
 }
+SECONDS = 12
+"""Of the processor's time, that a report waits for both problems; all else of it takes about as long."""
+LATE = "Whether formulas solve the {} problem is not known: a report tries for {} s, `assur derive` to the end."
 PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
 PRINTERS = (Path(__file__), *sorted(Path(latex.__file__).parent.glob("*.py")))
 
@@ -66,11 +70,17 @@ def _part(data: list[Any]) -> Any:
 
 def _sections(record: MechanismRecord) -> Iterator[Section]:
     solved: dict[Problem, AnalyticSolution] = {}
-    for problem in PROBLEMS:
-        try:
-            solved[problem] = analytic_solution(record, problem)
-        except NotDerivedError:
-            continue
+    late: list[Problem] = []
+    with patience(SECONDS):
+        for problem in PROBLEMS:
+            try:
+                solved[problem] = analytic_solution(record, problem)
+            except TooLongError:
+                late.append(problem)
+            except NotDerivedError:
+                continue
+    if late:
+        yield Section("Analytic solution", LATE.format(" and the ".join(late), SECONDS), [])
     if solved:
         derivation = printed_derivation(record, solved, {})
         parts: list[Result | Section] = [_problem(own) for own in derivation.problems]

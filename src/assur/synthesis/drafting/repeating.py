@@ -8,8 +8,9 @@ from collections.abc import Sequence
 
 from assur.errors import UsageError
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
-from assur.topology.directions import Vector, unit
+from assur.topology.directions import Vector
 from assur.topology.notation import parse_chain, parse_chains, plain_text
+from assur.topology.notation.brackets import direction
 
 LEAST, MOST = 2, 60
 PRIME = "'"
@@ -66,4 +67,4 @@ def _of_limb(label: str, number: int) -> str:
 
 def _about_z(axis: Vector, angle: float) -> Vector:
     cosine, sine = math.cos(angle), math.sin(angle)
-    return unit((cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2]))
+    return direction((cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2]))
