@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.kinematics.following import home_mode
 from assur.kinematics.following.exclusion import of_other_signs
 from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
@@ -18,6 +19,7 @@ from assur.kinematics.still import otherwise
 from assur.mechanism import load
 from assur.performance.indices import indices
 from assur.singularity.verdict import verdict
+from assur.work import where
 
 SLIDER_CRANK = ["R[z] R[z]", "P[x] R[z]"]
 
@@ -122,6 +124,16 @@ def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
     found = home_mode_at(bare, pose, detours=1)
     assert (found.status, found.never) == (Status.undecided, "")
     assert "which is no proof" in found.words
+
+
+def test_who_is_ended_among_detours_is_told_where_the_straight_path_stopped(bare, monkeypatch):
+    def ended(*_):
+        raise KeyboardInterrupt(where())
+        yield
+
+    monkeypatch.setattr(home_mode, "_other_ways", ended)
+    with pytest.raises(KeyboardInterrupt, match=r"\(1 of 7, the straight path stopped at .* parallel singularity"):
+        home_mode_at(bare, [-90.0, 10.0, 118.0])
 
 
 def test_a_platform_that_home_never_turns_over_is_in_another_mode_where_it_is():

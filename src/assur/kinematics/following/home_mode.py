@@ -38,7 +38,7 @@ from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 from assur.results.plain_text import count
-from assur.work import stage
+from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 CLEARLY = 1e-5
@@ -120,7 +120,6 @@ class HomeMode:
         return bool(np.max(np.abs(here - there)) <= 10 * SAME)
 
 
-@stage("way of home's mode to the pose")
 def home_mode_at(
     record: MechanismRecord,
     target: ArrayLike,
@@ -144,15 +143,29 @@ def home_mode_at(
     >>> found.reached, found.words
     (True, "home's mode, followed straight from home")
     """
-    home, goal = home_values(record), np.asarray(target, dtype=float)
+    with stage("way of home's mode to the pose") as work:
+        return _home_mode_at(record, np.asarray(target, dtype=float), prescribed, detours, known, work)
+
+
+def _home_mode_at(
+    record: MechanismRecord,
+    goal: FloatArray,
+    prescribed: Prescribed,
+    detours: int,
+    known: SolutionSet | None,
+    work: WorkStage,
+) -> HomeMode:
+    home = home_values(record)
     straight = _path(record, home, goal, prescribed)
     if straight.stopped is None:
         return HomeMode(straight.joints[-1], 1, None)
+    work.at(1, 1 + detours, f"the straight path {straight.stopped}")
     solve = direct if prescribed == "inputs" else inverse
     # loops in turn are quick, and all of them may prove that no way leads there
     solutions = known or solve(record, goal, method="auto" if record.closed_form else "loops")
     never, stops, tried = _all_excluded(record, solutions), [straight.stopped], 1
     for way, turns in () if never else _other_ways(record, prescribed, home, goal, detours):
+        work.at(tried, 1 + detours)
         tried += 1
         try:
             path = _path(record, home, way, prescribed, turns)
