@@ -11,6 +11,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.structure import linkage, values_from_home
 from assur.model.registry import load_record
 from assur.numerics import rotations
+from assur.synthesis.drafting.drafting import drafted
 from assur.topology.met_modes import met_modes
 from assur.topology.notation import parse_chains
 from assur.topology.screws.assembled import assembled_at
@@ -94,6 +95,21 @@ def test_a_3_rer_translates_and_moves_in_a_plane_from_one_home():
     at_home = {name: [other.mode for other in mode.meets if other.at_home] for name, mode in modes.items()}
     assert (at_home["2T1R"], at_home["3T"]) == (["3T"], ["2T1R"])
     assert {value for values in modes["3T"].meets[0].example.values() for value in values} == {0.0}
+
+
+@pytest.mark.deep
+def test_a_3_uru_whose_base_and_platform_axes_meet_changes_among_the_modes_of_dymo(tmp_path):
+    """Zlatanov, Bonev and Gosselin 2002: it translates, turns about the common point, or moves in its plane."""
+    limb = [("x", "y"), *((f"-0.5,{s * 0.75**0.5},0", f"{-s * 0.75**0.5},-0.5,0") for s in (1, -1))]
+    chains = parse_chains([f"R[{out}]@O R[{on}] R[{on}] R[{on}] R[{out}]@Q" for out, on in limb])
+    file = tmp_path / "dymo.toml"
+    file.write_text(drafted(chains, file, actuate=["1.2", "2.2", "3.2"], mode="translation").text, encoding="utf-8")
+    modes = {mode.name: mode.poc for mode in operation_modes(assur.load(file))}
+    assert {name: (poc.t, poc.r) for name, poc in modes.items() if name in ("3T", "3R", "2T1R")} == {
+        "3T": (3, 0),
+        "3R": (0, 3),
+        "2T1R": (2, 1),
+    }
 
 
 @pytest.mark.parametrize("name", ["three_rps", pytest.param("zeng2019", marks=pytest.mark.deep)])

@@ -170,7 +170,8 @@ def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
         yield f"kept         {synthesis.kept} families are as an earlier run left them"
     if any(not design.symmetric for design in synthesis.designs):
         listed = data.combinations.listed_of_each_class_of_different_limbs
-        yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
+        simplest = "simplest is" if listed == 1 else f"{listed} simplest are"
+        yield f"Of different limbs the {simplest} listed for each combination of limb motions."
 
 
 def _degrees(counts: Counter[int]) -> str:

@@ -133,7 +133,7 @@ def drafted(
     for made in _best_first(singular, enough):
         if asked.agrees(made, reasons):
             return _drafted(asked.tied(made), topology)
-    listed = "; ".join(list(reasons)[:3])
+    listed = "; ".join(list(reasons)[-3:])  # of layouts whose home was moved, where any was reached
     raise UsageError(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
         hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",

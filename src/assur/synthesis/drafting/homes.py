@@ -43,10 +43,10 @@ NEAR = 0.2
 CONDITION = 50.0
 """A larger condition number of the Jacobian at home is said."""
 
-AWAY = np.outer((1.0, 0.3), (60.0, 100.0, 30.0))
+AWAY = np.array([[60.0, 100.0, 30.0], [60.0, 100.0, -60.0], [18.0, 30.0, 10.0], [18.0, 30.0, -20.0]])
 STEP = 0.2
-"""How far a mechanism is moved from where it was drawn, where that is singular: x, y, z in mm, less where that cannot
-be reached; else in rad."""
+"""How far a mechanism is moved from where it was drawn, where that is singular: x, y, z in mm, the first of them that
+can be reached; else in rad."""
 
 
 def away(record: MechanismRecord, *, still: bool) -> FloatArray | None:
