@@ -21,6 +21,15 @@ def test_help_loads_nothing_heavy():
     assert done.returncode == 0
 
 
+def test_solids_that_are_left_at_the_end_are_not_complained_of():
+    code = (
+        "import sys; sys.argv = ['assur', '--version']; from assur.cli.main import main; main(); "
+        "from manifold3d import Manifold; left = [Manifold.cube((1, 1, 1))]; left.append(left)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_it_runs_as_a_module_too():
     """Where the environment's folder of commands is not on the path."""
     words = ["topology", "no_such_mechanism"]
