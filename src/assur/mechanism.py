@@ -196,10 +196,9 @@ class Mechanism(Mechanics):
 
     def _repr_html_(self) -> str:
         """The same for a notebook, with its structure as a picture."""
-        from assur.results.notebook import html_table
+        from assur.results.notebook import html_table, pictured
 
-        picture = import_module("assur.figures.encode").encoded(self.plot("structure"), "png", 110)
-        return html_table(f"{self.name}: {self.title}", *self._table(), picture)
+        return html_table(f"{self.name}: {self.title}", *self._table(), pictured(self.plot("structure")))
 
     def _table(self) -> tuple[tuple[str, ...], list[tuple[object, ...]]]:
         """Columns and rows of what is given and asked of it."""

@@ -75,6 +75,15 @@ def test_a_notebook_shows_solutions_in_the_files_units(fivebar):
     assert "batch (2,)" in fivebar.direct(np.ones((2, 2)))._repr_html_()
 
 
+def test_a_notebook_shows_solutions_as_they_stand(fivebar):
+    for found in (fivebar.direct(np.radians([60.0, 60.0])), fivebar.inverse([0.0, 200.0])):
+        assert found._repr_html_().count("data:image/png;base64,iVBOR") == 1
+    none = fivebar.inverse([1e4, 0.0])
+    assert not len(none)
+    for found in (none, fivebar.direct(np.ones((2, 2)))):
+        assert "<img" not in found._repr_html_()
+
+
 def test_a_notebook_shows_a_topology_with_its_graph():
     shown = assur.topology("fivebar")._repr_html_()
     assert sorted(row[0].split()[0] for row in cells(shown)) >= ["freedoms", "coupling"] or len(cells(shown)) > 5

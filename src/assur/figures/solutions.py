@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.figures.canvas import POINTS, Canvas, TextWidths, View, canvas, inside
+from assur.figures.canvas import POINTS, Canvas, TextWidths, View, canvas, fitted, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import unit_after
 from assur.figures.labels import label
@@ -19,10 +21,11 @@ from assur.figures.page import side_by_side
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import BLUE, GREEN, INK, ORANGE, PINK, RED, SKY, SMALL, TEXT
+from assur.figures.style import BLUE, GREEN, INK, ORANGE, PINK, RED, SKY, SMALL, TEXT, styled
 from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.naming import DescribedSign
+from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, is_angle
 from assur.results.typeset_text import minus
 from assur.scene.camera import oblique, plane
@@ -64,17 +67,35 @@ class Ghost:
 
 def ghosts(context: Context) -> list[Ghost]:
     """Every listed direct solution at the inputs of the configuration that is drawn; that one comes first."""
-    record = context.record
     listed = list(context.assemblies)
     values = [np.array(list(item.joints.values())) for item in listed]
     order = np.argsort([context.apart(joints) for joints in values], kind="stable")
-    found = []
-    for number, k in enumerate(order):
-        body = skeleton(record, context.companion, values[k])
-        rotation, origin = body.frames[record.platform.link]
-        colour = INK if number == 0 else GHOSTS[(number - 1) % len(GHOSTS)]
-        found.append(Ghost(number + 1, listed[k], body, colour, rotation @ record.platform.point + origin))
-    return found
+    return [_ghost(context, listed[k], number) for number, k in enumerate(order, 1)]
+
+
+def _ghost(context: Context, solution: Solution, number: int) -> Ghost:
+    body = skeleton(context.record, context.companion, np.array(list(solution.joints.values())))
+    rotation, origin = body.frames[context.record.platform.link]
+    colour = INK if number == 1 else GHOSTS[(number - 2) % len(GHOSTS)]
+    return Ghost(number, solution, body, colour, rotation @ context.record.platform.point + origin)
+
+
+def pictured(record: MechanismRecord, listed: Sequence[Solution], *, numbered: bool) -> Figure:
+    """Solutions of one answer on one another, the first in black, `MOST` at most; numbered as they are listed.
+
+    >>> import assur
+    >>> record = assur.load("fivebar")
+    >>> len(pictured(record, list(record.inverse([0.0, 200.0])), numbered=False).axes)
+    1
+    """
+    with styled():
+        context = Context(record)
+        found = [_ghost(context, solution, number) for number, solution in enumerate(listed[:MOST], 1)]
+        cloud = np.concatenate([cloud_of(item.skeleton, context.companion) for item in found])
+        camera = context.camera("solutions", oblique("y", "z", 211, 0.85))
+        view, page = fitted(camera, cloud, context.page, TALLEST, margin=GAP)
+        _panel(context, page, view, found, numbered=numbered)
+    return page.figure
 
 
 def _missing(context: Context) -> str:
@@ -130,7 +151,8 @@ def _draw(context: Context) -> Drawing:
         left = (width - float(rooms[row, 0].sum()) - GAP * (len(row) - 1)) / 2
         for k in row:
             across, upward = float(rooms[k, 0]), heights[number] - HEAD
-            _panel(context, page, inside(cameras[k], cloud, (left, low + 9.0, across, upward)), drawn)
+            view = inside(cameras[k], cloud, (left, low + 9.0, across, upward))
+            _panel(context, page, view, drawn, signs=_signs(context))
             if len(cameras) > 1:
                 middle = (left + across / 2) * POINTS
                 page.text((middle, (low + 2.5) * POINTS), ("(a)", "(b) XOZ plane")[k], fontsize=TEXT)
@@ -139,7 +161,15 @@ def _draw(context: Context) -> Drawing:
     return Drawing(page.figure, _data(context, found))
 
 
-def _panel(context: Context, page: Canvas, view: View, ghosts: list[Ghost]) -> None:
+def _panel(
+    context: Context,
+    page: Canvas,
+    view: View,
+    ghosts: list[Ghost],
+    *,
+    numbered: bool = True,
+    signs: Sequence[DescribedSign] = (),
+) -> None:
     letters = Letters(page)
     draw_ground(page, view, ghosts[0].skeleton, context.companion, letters)
     for ghost in ghosts[::-1]:
@@ -155,9 +185,10 @@ def _panel(context: Context, page: Canvas, view: View, ghosts: list[Ghost]) -> N
     for ghost in ghosts:
         page.disc(view(ghost.origin), 1.6, ghost.colour, ghost.colour, order=15)
         letters.avoid_disc(view(ghost.origin), 1.6)
-        letters.add(view(ghost.origin), str(ghost.number), clear=4.0, color=ghost.colour, weight="bold")
-    if len(_signs(context)) > 1:  # one alone is that of the whole
-        add_signs(view, ghosts[0].skeleton, letters, _signs(context))
+        if numbered:
+            letters.add(view(ghost.origin), str(ghost.number), clear=4.0, color=ghost.colour, weight="bold")
+    if len(signs) > 1:  # one alone is that of the whole
+        add_signs(view, ghosts[0].skeleton, letters, signs)
     letters.place()
 
 

@@ -11,6 +11,9 @@ from typing import Any
 
 from assur.errors import UsageError
 
+DOTS = 110
+"""Of a picture per inch."""
+
 Rows = Sequence[Sequence[object]]
 """Of a table; each cell is shown as `str` gives it."""
 
@@ -41,6 +44,14 @@ def text_table(title: str, columns: Sequence[str], rows: Rows) -> str:
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
     return "\n".join([title, *(line.rstrip() for line in lines)] if columns else [title])
+
+
+def pictured(figure: Any) -> bytes:
+    """A figure as a PNG file of a size for notebooks; nothing where there is none."""
+    if figure is None:
+        return b""
+    png: bytes = import_module("assur.figures.encode").encoded(figure, "png", DOTS)
+    return png
 
 
 Entries = Sequence[Mapping[str, object]]
@@ -88,11 +99,15 @@ class Tabulated(ABC):
     def _entries(self) -> Entries:
         """Its rows."""
 
+    def _picture(self) -> Any:
+        """A figure of it, or None."""
+        return None
+
     def __str__(self) -> str:
         return text_table(self._title(), *cells(self._entries()))
 
     def _repr_html_(self) -> str:
-        return html_table(self._title(), *cells(self._entries()))
+        return html_table(self._title(), *cells(self._entries()), pictured(self._picture()))
 
     def to_dataframe(self) -> Any:
         """The table as a `pandas.DataFrame`, one row for each pose, moment or name.

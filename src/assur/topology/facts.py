@@ -159,13 +159,13 @@ class Topology:
 
     def _repr_html_(self) -> str:
         """For a notebook: the table of characteristics, and the graph as a picture."""
-        from assur.results.notebook import html_table
+        from assur.results.notebook import html_table, pictured
 
         rows = import_module("assur.topology.characteristics").characteristics(self)
-        graph, encode, style = (import_module(f"assur.figures.{name}") for name in ("graph", "encode", "style"))
+        graph, style = (import_module(f"assur.figures.{name}") for name in ("graph", "style"))
         with style.styled():
             drawn = graph.graph_drawing(self.linkage, self.loops, self.assur_chains).figure
-        return html_table(self.name, ("characteristic", "value"), rows, encode.encoded(drawn, "png", 110))
+        return html_table(self.name, ("characteristic", "value"), rows, pictured(drawn))
 
     @property
     def is_shaky(self) -> bool:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,6 +156,14 @@ class SolutionSet(Tabulated):
         if self.batch_shape:
             return repr(self)
         return f"{len(self)} {self.problem} solutions of {self.record.name}: {self.right}"
+
+    def _picture(self) -> Any:
+        """The listed solutions of a batch of one on one another, numbered as rows where their platforms are apart."""
+        listed = () if self.batch_shape else tuple(self)
+        if not listed:
+            return None
+        apart = self.problem == "direct"
+        return import_module("assur.figures.solutions").pictured(self.record, listed, numbered=apart)
 
     def __getitem__(self, place: int) -> Solution:
         """One of the listed solutions of a batch of one, counted from 0."""
