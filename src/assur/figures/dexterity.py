@@ -86,7 +86,7 @@ def _draw(context: Context, measure: Measure) -> Drawing:
     colours, data = scale_of(known, unbounded=INDICES[measure.name].unbounded), []
     levels = round_levels(colours)
     for place, plane, values in zip(axes, mapped, maps, strict=True):
-        coloured(place, plane, values, colours, levels=levels)
+        coloured(place, plane, values, colours, levels=levels, ridges=INDICES[measure.name].unbounded)
         nodes = dict(zip(plane.names, (plane.xs, plane.ys), strict=True))
         data.append({"plane": plane.names, "held": plane.held, **nodes, measure.key: values})
     extend = beyond(float(colours.vmax or np.inf), known)

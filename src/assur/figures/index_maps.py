@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.contours import continued
-from assur.figures.plane_map import SHOWN, MappedPlane, beyond, coloured, panels, plane_of_lengths, scale_of, with_bar
+from assur.figures.plane_map import (
+    SHOWN,
+    MappedPlane,
+    beyond,
+    coloured,
+    panels,
+    plane_of_lengths,
+    scale_of,
+    with_bar,
+)
 from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.written import units
@@ -63,7 +72,8 @@ def drawn(
         values = np.where(np.isinf(item.values), float(colours.vmax or np.nan) if len(known) else np.nan, item.values)
         share = maps.maps[spent[0]].values if name in spent[1] else np.zeros_like(values)
         some = np.any(share > 1.0) and np.any(share <= 1.0)
-        image = coloured(pair[0], plane, np.where(share > 1.0, np.nan, values).T if some else values.T, colours)
+        kept = np.where(share > 1.0, np.nan, values).T if some else values.T
+        image = coloured(pair[0], plane, kept, colours, ridges=index is not None and index.unbounded)
         if some and image is not None:
             past = pair[0].contourf(xs, ys, continued(share).T, levels=[1.0, np.inf], colors=[image.cmap(0)], zorder=2)
             past.set_clip_path(outline(plane.polygons), pair[0].transData)

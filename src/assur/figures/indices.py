@@ -90,7 +90,7 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
         colours = Normalize(0.0, 1.0) if good else scale_of(known, unbounded=index.unbounded)
         marked = {GOOD: ORANGE} if good else None
         levels = round_levels(colours)
-        image = coloured(pair[0], plane, values, colours, levels=levels, marked=marked)
+        image = coloured(pair[0], plane, values, colours, levels=levels, marked=marked, ridges=index.unbounded)
         with_bar(pair, image, "none found", beyond(float(colours.vmax or np.inf), known), levels)
         data[name] = {"values": values}
     return Drawing(

@@ -15,6 +15,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
+from scipy.interpolate import RegularGridInterpolator
 
 from assur.figures.context import Context
 from assur.figures.contours import continued, draw_contours, round_levels
@@ -35,6 +36,9 @@ DECADES = 1e4
 ACROSS, LEAST, TALLEST, LEFT = 3, 44.0, 50.0, 14.0
 """Maps in a row of panels, the share of the page's width that one needs there, the height of one at most, and the room
 to the left of the first; in mm."""
+
+FINER = 6
+"""Parts of a step between two nodes where a ridge is followed."""
 
 BELOW, BETWEEN = 10.0, 3.0
 """Room below a map in mm: for the numbers of its axis, and where the same axis stands below another map."""
@@ -86,6 +90,36 @@ class MappedPlane:
         )
 
 
+def ridged(plane: MappedPlane, values: FloatArray) -> tuple[MappedPlane, FloatArray]:
+    """A finer plane, and on it values (b, a) that grow without bound towards the zeros of the parallel factors.
+
+    From node to node their reciprocals are followed, with the sign of the factors: these pass through zero between two
+    nodes, where the values themselves would have a bead beside each node that is near. Small values go by decades.
+
+    >>> import assur
+    >>> from assur.workspace.region import workspace
+    >>> record = assur.load("fivebar")
+    >>> plane = planes(Context(record, workspace(record, resolution=16)), 8)[0]
+    >>> fine, shown = ridged(plane, np.ones((8, 8)))
+    >>> shown.shape == (len(fine.ys), len(fine.xs)), float(np.ptp(shown)) < 1e-12
+    (True, True)
+    """
+    finer = plane_through(plane.context, plane.names, plane.held, FINER * (len(plane.xs) - 1) + 1)
+    known = np.isfinite(values) & (values > 0)
+    if not np.any(known):
+        return finer, np.full((len(finer.ys), len(finer.xs)), np.nan)
+    middle = float(np.median(values[known]))
+    shares = np.where(known, values, np.nan) / middle
+    small = 1.0 - np.log(np.minimum(shares, 1.0))
+    factors = plane.context.workspace.region.factors.values()
+    nodes, shape = tuple(plane.points.reshape(-1, plane.points.shape[-1]).T), values.shape
+    side = np.prod([np.where(field(nodes) < 0, -1.0, 1.0).reshape(shape) for field in factors], axis=0)
+    signed = continued(side * np.where(shares > 1.0, 1.0 / shares, small))
+    steps = RegularGridInterpolator((plane.ys, plane.xs), signed)
+    way = np.abs(steps(np.stack(np.meshgrid(finer.ys, finer.xs, indexing="ij"), axis=-1)))
+    return finer, middle * np.where(way < 1.0, 1.0 / np.maximum(way, 1e-12), np.exp(1.0 - np.maximum(way, 1.0)))
+
+
 def planes(context: Context, nodes: int) -> list[MappedPlane]:
     """The planes through the middle of the workspace: all of a plane one, of one in space two that meet in it."""
     box = context.workspace.box
@@ -132,14 +166,20 @@ def coloured(
     palette: str = COLOURS,
     levels: Sequence[float] = (),
     marked: Mapping[float, str] | None = None,
+    ridges: bool = False,
 ) -> QuadMesh | None:
     """A map of values (b, a): colours, white lines at levels, and lines of their own colours at marked ones, numbered.
+
+    `ridges` says that values grow without bound towards singularities, and follows them there (`ridged`).
 
     All ends at the border of the workspace, which is drawn. None, and no colours, where nothing is known.
     """
     dress(plane.context, axes, plane.context.workspace.box, plane.names)
     axes.tick_params(color=GREY)
-    path, known = outline(plane.polygons), np.isfinite(values)
+    path = outline(plane.polygons)
+    if ridges:
+        plane, values = ridged(plane, values)
+    known = np.isfinite(values)
     if path is None:
         return None
     border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)

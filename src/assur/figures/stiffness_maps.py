@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.figures.context import Context
-from assur.figures.plane_map import MappedPlane, coloured, panels, with_bar
+from assur.figures.plane_map import MappedPlane, coloured, panels, ridged, with_bar
 from assur.figures.spec import Drawing
 from assur.figures.style import INK
 from assur.machine.elasticity.stiffness_maps import LEAST, MOTORS, WAYS
@@ -44,11 +44,13 @@ def drawn(context: Context, maps: IndexMaps) -> Drawing:
     titles = ["links and actuators (N/µm)", "actuators alone (N/µm)", "(b) over (a)"]
     figure, pairs = panels(plane, titles, right=15.0)
     whole, motors = maps[LEAST].T / MICRO, maps[MOTORS].T / MICRO
+    soft = [ridged(plane, values**-0.5) for values in (whole, motors)]  # grows with 1 over the distance from a ridge
+    shown = [*((finer, values**-2.0) for finer, values in soft), (plane, motors / whole)]
     images = []
-    for pair, values in zip(pairs, (whole, motors, motors / whole), strict=True):
+    for pair, values, fine in zip(pairs, (whole, motors, motors / whole), shown, strict=True):
         known = values[np.isfinite(values)]
         low, high = (np.quantile(known, 0.02), known.max()) if len(known) else (0.1, 1.0)
-        images.append(coloured(pair[0], plane, values, LogNorm(min(low, high / EVEN), high)))
+        images.append(coloured(pair[0], *fine, LogNorm(min(low, high / EVEN), high)))
         with_bar(pair, images[-1], "none held")
     if images[0] and first in LENGTHS and second in LENGTHS:
         ways = [maps[WAYS[LENGTHS.index(name)]].T for name in (first, second)]

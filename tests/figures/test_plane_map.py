@@ -1,0 +1,44 @@
+"""Ridges of maps: what grows without bound between two nodes is followed there."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from assur.figures.plane_map import plane_through, ridged
+from assur.workspace.domain import Box
+
+
+def mapped(factor, nodes=12):
+    """A square in which one parallel factor of x and y vanishes."""
+    region = SimpleNamespace(factors={"f": lambda at: factor(*at)})
+    workspace = SimpleNamespace(box=Box(("x", "y"), (-1.0, -1.0), (1.0, 1.0)), region=region)
+    return plane_through(SimpleNamespace(workspace=workspace), ("x", "y"), {}, nodes)
+
+
+def slanted(x, y):
+    return x - 0.3 * y + 0.013
+
+
+def test_a_ridge_has_no_beads():
+    """Along the zeros of the factor all values are large, however far from nodes: from node to node they are not."""
+    plane = mapped(slanted)
+    fine, shown = ridged(plane, 1.0 / np.abs(slanted(*np.moveaxis(plane.points, -1, 0))))
+    exact = 1.0 / np.abs(slanted(*np.moveaxis(fine.points, -1, 0)))
+    along = exact > 8.0
+    np.testing.assert_allclose(shown[along], exact[along], rtol=1e-6)
+
+
+def test_far_from_a_ridge_values_are_those_of_the_nodes():
+    plane = mapped(lambda x, y: x + y + 5.0)
+    values = np.exp(plane.points[..., 0] + 2 * plane.points[..., 1])
+    _, shown = ridged(plane, values)
+    parts = (len(shown) - 1) // (len(values) - 1)
+    np.testing.assert_allclose(shown[::parts, ::parts], values, rtol=1e-9)
+
+
+@pytest.mark.parametrize("outside", [np.nan, np.inf])
+def test_where_nothing_is_known_nothing_is_shown(outside):
+    fine, shown = ridged(mapped(slanted), np.full((12, 12), outside))
+    assert shown.shape == (len(fine.ys), len(fine.xs))
+    assert not np.any(np.isfinite(shown))
