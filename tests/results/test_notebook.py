@@ -32,6 +32,16 @@ def test_text_has_as_many_lines_as_rows_and_two_more():
     assert text_table("t", ("a", "b"), ((1, "long"), ("longer", 2))) == "t\na       b\n1       long\nlonger  2"
 
 
+def test_rounding_is_shown_as_zero_beside_what_is_none():
+    column = [300.0, -1e-17, 1e-6, np.inf, np.nan]
+    assert [row[0] for row in table_cells([{"x": value} for value in column])[1]] == ["300", "0", "1e-06", "inf", "nan"]
+    assert table_cells([{"gap": 3e-17}])[1] == [["3e-17"]]
+
+
+def test_solutions_say_the_units_of_their_columns(fivebar):
+    assert f"in {fivebar.unit} and {fivebar.angle}:" in str(fivebar.inverse([0.0, 200.0])).splitlines()[0]
+
+
 def test_a_mechanism_prints_its_inputs_pose_and_dimensions_and_is_still_named_in_short(fivebar):
     printed = str(fivebar)
     for name in (*fivebar.parameters, *fivebar.platform.pose, *(item.name for item in fivebar.inputs)):

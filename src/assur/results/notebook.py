@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -59,20 +60,31 @@ Entries = Sequence[Mapping[str, object]]
 SHOWN = 24
 """So many rows are shown; a data frame has all of them."""
 
+ROUNDING = 1e-15
+"""What is less than this share of the largest number of its column is rounding."""
+
 
 def cells(entries: Entries) -> tuple[tuple[str, ...], list[list[object]]]:
-    """Columns and rows as they are shown: numbers to six digits, and how many rows are not shown.
+    """Columns and rows as they are shown: numbers to six digits, rounding as 0, and how many rows are not shown.
 
-    >>> cells([{"x": 1 / 3, "mode": "+"}])
-    (('x', 'mode'), [['0.333333', '+']])
+    >>> cells([{"x": 1 / 3, "mode": "+"}, {"x": 1e-17, "mode": "-"}])
+    (('x', 'mode'), [['0.333333', '+'], ['0', '-']])
     """
     columns = tuple(entries[0]) if entries else ()
+    numbers = [[cell for row in entries if isinstance(cell := row[name], float)] for name in columns]
+    largest = [max((abs(number) for number in column if math.isfinite(number)), default=0.0) for column in numbers]
     rows: list[list[object]] = [
-        [f"{cell + 0.0:.6g}" if isinstance(cell, float) else cell for cell in row.values()] for row in entries
+        [_shown(cell, ROUNDING * most) for cell, most in zip(row.values(), largest, strict=True)] for row in entries
     ]
     if len(rows) > SHOWN:
         rows[SHOWN:] = [[f"and {len(rows) - SHOWN} more", *[""] * (len(columns) - 1)]]
     return columns, rows
+
+
+def _shown(cell: object, least: float) -> object:
+    if not isinstance(cell, float):
+        return cell
+    return f"{0.0 if abs(cell) < least else cell + 0.0:.6g}"
 
 
 def data_frame(entries: Entries) -> Any:

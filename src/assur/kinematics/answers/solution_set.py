@@ -155,7 +155,8 @@ class SolutionSet(Tabulated):
     def _title(self) -> str:
         if self.batch_shape:
             return repr(self)
-        return f"{len(self)} {self.problem} solutions of {self.record.name}: {self.right}"
+        units = f"{self.record.unit} and {self.record.angle}"
+        return f"{len(self)} {self.problem} solutions of {self.record.name} in {units}: {self.right}"
 
     def _picture(self) -> Any:
         """The listed solutions of a batch of one on one another, numbered as rows where their platforms are apart."""
