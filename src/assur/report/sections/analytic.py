@@ -31,7 +31,7 @@ HELD = {
     True: "each closes every loop, which was held against them modulo a prime of 160 bits",
     False: "NOT ALL of them close every loop",
 }
-SECONDS = 12
+SECONDS = 8
 """Of the processor's time, that a report waits for both problems; all else of it takes about as long."""
 LATE = "Whether formulas solve the {} problem is not known: a report tries for {} s, `assur derive` to the end."
 PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
