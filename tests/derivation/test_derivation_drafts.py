@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import sympy
 
 from assur.cli.main import main
 from assur.derivation.derivation import derive
@@ -139,6 +140,17 @@ def test_lengths_of_links_oblique_to_their_hinges_are_no_condition(sloped, probl
             while condition.free_symbols & {*names}:
                 condition = condition.subs(names)
             assert not condition.free_symbols <= dimensions
+
+
+def test_a_link_that_lies_along_an_axis_fails_no_condition(tmp_path):
+    """Two linear equations of one angle, as a turned pair, have no pivot that is needed: their squares add up."""
+    chains = ["P[0,0.8,0.6] P(4R)[x] P(4R)[0,0.8,0.6]", "C[x] R[x] R[x]"]
+    solution = analytic_solution(draft_of(parse_chains(chains), tmp_path), "direct")
+    cosine, sine = sympy.symbols("cos_q3 sin_q3", real=True)
+    conditions = [own for part in solution.sets for own in part.conditions if own.has(sine)]
+    assert conditions
+    for condition in conditions:
+        assert condition.subs({cosine: 0, sine: 1}) != 0
 
 
 @pytest.mark.deep

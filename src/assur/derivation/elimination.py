@@ -141,15 +141,16 @@ class _Set:
         return {**form, ONE: self._named(next(self.letters), known)}
 
     def _short(self, coefficient: sympy.Expr) -> sympy.Expr:
-        """A sum of dimensions by its name, or its negative's: so sums of squares show that they never vanish."""
+        """A sum of dimensions by its name, which its multiples share: so sums of squares show that none vanishes."""
         dimensions = coefficient.free_symbols <= self.witness.dimensions
         if not coefficient.is_Add or not dimensions or self._never_zero(coefficient):
             return coefficient
-        if -coefficient in self.sums:
-            return -self.sums[-coefficient]
-        if coefficient not in self.sums:
-            self.sums[coefficient] = self._named(next(self.letters), coefficient)
-        return self.sums[coefficient]
+        factor, own = coefficient.primitive()
+        if -own in self.sums:
+            factor, own = -factor, -own
+        if own not in self.sums:
+            self.sums[own] = self._named(next(self.letters), own)
+        return factor * self.sums[own]
 
     def meeting(self) -> tuple[dict[sympy.Symbol, Form], list[Form]]:
         """The unknowns of the others, and lines for those of the base, those first that the equations leave.
@@ -157,7 +158,9 @@ class _Set:
         A line without an unknown says that there is no solution.
         """
         unknowns = [unknown for direction in self.others for unknown in direction.unknowns]
-        values, lines = solved(self.equations, unknowns, self.witness, self.conditions)
+        conditions: list[sympy.Expr] = []
+        values, lines = solved(self.equations, unknowns, self.witness, conditions)
+        self.conditions += [shorter({ONE: own}, self.witness.circles, self.witness)[ONE] for own in conditions]
         curved = [direction for direction in self.others if direction.kind != "stroke"]
         lines += [line for direction in curved if (line := self._line(direction, values)) is not None]
         return values, lines

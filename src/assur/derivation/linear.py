@@ -15,6 +15,8 @@ from assur.derivation.witness import ModularWitness
 Form = dict[sympy.Symbol | sympy.Integer, sympy.Expr]
 """Unknown -> its coefficient; of 1 the constant. What is zero is left out."""
 ONE = sympy.Integer(1)
+STEADY = 1
+"""The cost of a pivot that never vanishes, or less."""
 LONG = 200
 """Operations of two equations that are not combined only so that one of them gets shorter."""
 VANISHED = 1e-9
@@ -93,7 +95,18 @@ def solved(
         ]
         if not pivots:
             return values, left
-        _, k, key = min(pivots, key=lambda pivot: pivot[:1])
+        cost, k, key = min(pivots, key=lambda pivot: pivot[:1])
+        if (
+            conditions is not None
+            and cost[0] > STEADY
+            and not turning
+            and (pair := _turned_pair(left, unknowns, witness))
+        ):
+            factors, own_pair, left = pair
+            conditions += [factor for factor in factors if not never_zero(factor, witness.sizes)]
+            left = [own for own in (replaced(form, own_pair, witness) for form in left) if own]
+            values = {other: replaced(form, own_pair, witness) for other, form in values.items()} | own_pair
+            continue
         pivot = left.pop(k)
         if conditions is not None and not never_zero(pivot[key], witness.sizes):
             conditions.append(pivot[key])
@@ -101,6 +114,31 @@ def solved(
         left = [replaced(form, {key: own}, witness) if key in form else form for form in left]
         left = [form for form in left if form]
         values = {other: replaced(form, {key: own}, witness) for other, form in values.items()} | {key: own}
+
+
+def _turned_pair(
+    forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness
+) -> tuple[list[sympy.Expr], dict[sympy.Symbol, Form], list[Form]] | None:
+    """Two unknowns of two equations (a, b) and k (-b, a), as forms; factors of a^2 + b^2, and the other equations.
+
+    Neither a nor b need be other than zero: the unknowns follow where not both vanish.
+    """
+    for first, second in combinations(forms, 2):
+        for x, y in combinations([key for key in unknowns if key in first and key in second], 2):
+            a, b, c, d = first[x], first[y], second[x], second[y]
+            if not witness.vanishes(a, c, -b, d) or not never_zero(share := tidy(d / a), witness.sizes):
+                continue
+            square = tidy(a**2 + b**2)
+            rests = [{key: part for key, part in own.items() if key not in (x, y)} for own in (first, second)]
+            values = {}
+            for key, shares in ((x, (-d, b)), (y, (c, -a))):
+                total: Form = {}
+                for part, rest in zip(shares, rests, strict=True):
+                    total = combined(total, tidy(part / (share * square)), rest, witness)
+                values[key] = total
+            factors = [factor for factor, _ in sympy.factor_list(sympy.fraction(square)[0])[1]]
+            return factors, values, [own for own in forms if own is not first and own is not second]
+    return None
 
 
 def projected(
