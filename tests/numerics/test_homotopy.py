@@ -60,6 +60,13 @@ def test_solutions_that_meet_are_found_by_the_end_game_and_called_singular(order
     assert nearest(values(ends)[ends.end == PathEnd.regular], [2.0, -1.0]) < 1e-9
 
 
+def test_solutions_that_meet_beside_another_one_are_met_within_smaller_circles():
+    """The larger circles go round all three."""
+    ends = solve(*from_roots_of_unity(np.polynomial.polynomial.polyfromroots([0.5, 0.5, 0.51, 2.0, -1.0])))
+    assert sorted(ends.end.tolist()) == [PathEnd.regular] * 3 + [PathEnd.singular] * 2
+    np.testing.assert_allclose(values(ends)[ends.end == PathEnd.singular], 0.5, rtol=0, atol=1e-8)
+
+
 def test_where_all_ends_should_be_regular_one_that_is_singular_is_enough():
     system, starts = from_roots_of_unity(np.polynomial.polynomial.polyfromroots([0.5] * 3 + [2.0] * 3 + [-1.0]))
     whole, ends = solve(system, starts), solve(system, starts, all_regular=True)

@@ -99,7 +99,8 @@ class ClosedFormText(ClosedFormKernels):
             texts[self.unknown] = f"core.{self.unknown}"
         elif self.eliminant is not None:
             pair = circle_of("phi") if self.unknown == "phi" else self.eliminant.direction.unknowns
-            texts[self.unknown] = f"({', '.join(f'core.{own}' for own in pair)})"
+            place = [self.formulas.of_direct(own) for own in pair]
+            texts[self.unknown], used = self.pair_text(place), [*used, *place]
         if not texts:
             return ""
         lines = ["def quantities(ns, p, core):", '    """Angles by their names."""']

@@ -135,14 +135,13 @@ class _Matching:
         tables = [self._table(problem, solution, divisors, poses) for poses in (self._anywhere, self._about_home)]
         shares: dict[sympy.Symbol, dict[int, Share]] = {}
         for root in solution.roots:
-            share = self._shares(tables, self.own[problem, root.symbol][0], len(meanings), [*divisors])
+            name = self.own[problem, root.symbol][0]
+            share = self._shares(tables, name, len(meanings), [*divisors])
             if not share and self._same_leg_half_round(problem, solution, root.quantity):
                 matched[problem, root.symbol] = "", 1 if solution.symbols.witness.home[root.symbol] > 0 else -1
                 continue
             if not share:
-                raise NotDerivedError(
-                    f"the sign of {root.quantity} is none by which the modes of {self.record.name} are named"
-                )
+                raise NotDerivedError(self._no_name(root.quantity, [table[1][name] for table in tables]))
             shares[root.symbol] = share
         chosen = assigned([{*share} for share in shares.values()])
         if chosen is None:
@@ -155,6 +154,16 @@ class _Matching:
                 whole = tuple(divisors[name] for name in sorted(own))
                 products[problem, symbol] = SignProduct(others, whole)
         return {k: name for k, name in enumerate(meanings) if k not in chosen}
+
+    def _no_name(self, quantity: sympy.Expr, minus: Sequence[NDArray[np.bool_]]) -> str:
+        """Why a root has none, by whether its sign (N,) is minus at branches."""
+        answer = f"the sign of {quantity} is none by which the modes of {self.record.name} are named"
+        if len({*np.concatenate(minus).tolist()}) > 1:
+            return answer
+        return (
+            f"{answer}: with these dimensions its other value is real at no assembly that was met; with others the "
+            "joint graph names it, or [modes] of the file can"
+        )
 
     def _same_leg_half_round(self, problem: Problem, solution: AnalyticSolution, quantity: sympy.Expr) -> bool:
         """Whether a length of either sign is one answer: the leg is turned half round, which the names do not tell.

@@ -24,9 +24,10 @@ IndexArray = NDArray[np.intp]
 
 CLOSE = 1e-4
 """Largest correction of a predicted point of length 1; where a larger one is needed the step was too long."""
-RADII = (2e-2, 2e-3, 2e-4, 2e-5)
-"""The t at which the end game begins, and at which it is played again until it says the same."""
-SETTLED = 1e-6
+RADII = tuple(2 * 10.0**-k for k in range(2, 14))
+"""The t at which the end game begins, and at which it is played again until it says the same: where parameters are
+nearly special, as legs nearly equal, paths branch once more close by, at the square of what they differ by."""
+SETTLED = 1e-8
 CORNERS = 8
 MOST_CIRCLES = 8
 REGULAR = 1e-9

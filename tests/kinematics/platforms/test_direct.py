@@ -89,6 +89,21 @@ def test_the_loops_in_turn_give_the_same(name):
         assert len(loops.joints) == len(solutions.joints)
 
 
+@pytest.mark.parametrize("size", [1e-2, *(pytest.param(size, marks=pytest.mark.deep) for size in (1e-3, 1e-4))])
+def test_a_3_upu_has_seventy_eight_poses_near_equal_legs_too(size, tmp_path):
+    """With axes along radii (D. R. Walter, M. L. Husty 2011). With legs more equal six are far away, or nearly so."""
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), "3-UPU", "radial"]) == 0
+    record = load_record(path)
+    rng = np.random.default_rng(2)
+    for _ in range(2 if size == 1e-2 else 10):
+        inputs = home_values(record)[record.input_indices,] * (1.0 + size * rng.uniform(-1.0, 1.0, 3))
+        solutions = direct_by_conditions(record, inputs)
+        assert (solutions.complete, len(distinct(record, solutions.joints))) == (True, len(solutions.joints))
+        assert (78 if size == 1e-2 else 72) <= solutions.searched <= 78
+        assert np.max(closure_error(record, solutions.joints)) < 1e-9
+
+
 def test_forty_real_poses_are_all_found():
     """Of Dietmaier's legs."""
     solutions = direct_by_conditions(
