@@ -136,7 +136,7 @@ class _Set:
         """What is known of an equation under one name, and so a coefficient of dimensions that may vanish."""
         form = {key: part if key == ONE else self._short(part) for key, part in form.items()}
         known = form.get(ONE, ZERO)
-        if not sympy.sympify(known).is_Add:
+        if not sympy.fraction(sympy.sympify(known))[0].is_Add:
             return form
         return {**form, ONE: self._named(next(self.letters), known)}
 
