@@ -20,6 +20,8 @@ def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
     inverse = assur_cli("inverse", "hybrid.toml", *POSE, "--json").json
     assert len(inverse["solutions"]) == 8
     inputs = [f"{value:.12g}" for value in inverse["solutions"][0]["inputs"]]
+    shown = re.search(r"direct hybrid.toml (\S+) (\S+) (\S+)", README)
+    assert shown.groups() == tuple(f"{value:.4f}" for value in inverse["solutions"][0]["inputs"])
     direct = assur_cli("direct", "hybrid.toml", *inputs, "--json").json
     gaps = [max(abs(a - float(b)) for a, b in zip(item["pose"], POSE, strict=True)) for item in direct["solutions"]]
     assert min(gaps) < 1e-5

@@ -302,7 +302,7 @@ def test_sliders_oblique_to_their_axes_are_no_wrong_direct_solution(tmp_path):
 @pytest.mark.deep
 @pytest.mark.parametrize("chains", UNLIKE.values(), ids=[*UNLIKE])
 def test_limbs_that_are_unlike_have_a_closed_form_with_velocities_that_the_joint_graph_confirms(chains, tmp_path):
-    record = draft_of(parse_chains(chains), tmp_path, 200 if {LOOPED, ARM} == {*chains} else None)
+    record = draft_of(parse_chains(chains), tmp_path)
     assert "parallel" in derived_closed_form(record)  # which is held against the joint graph
     equations = velocity_equations(analytic_solution(record, "inverse"))
     assert equations.jp.shape == equations.jq.shape == (len(record.inputs),) * 2
@@ -440,7 +440,7 @@ def test_in_print_no_root_bears_a_name_that_its_sign_is_a_part_of(tmp_path):
 
 @pytest.mark.deep
 def test_a_closed_form_says_that_links_which_three_directions_hold_stand_as_at_home(tmp_path):
-    text = derived_closed_form(draft_of(parse_chains([LOOPED, ARM]), tmp_path, 200))
+    text = derived_closed_form(draft_of(parse_chains([LOOPED, ARM]), tmp_path))
     form = names_of(text, tmp_path / "closed_form.py")["CLOSED_FORM"]
     assert (form.complete_for, "three directions" in form.reduced_because) == ("reduced", True)
 
