@@ -6,6 +6,8 @@ import re
 import numpy as np
 import pytest
 
+import assur
+from assur.cli.main import main
 from assur.errors import UnknownNameError
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import is_of_mode, lettered, without_letter
@@ -100,3 +102,25 @@ def test_letters_of_signs_are_no_names_of_the_file(nameless):
 def test_a_quantity_of_the_file_names_itself_and_the_joints_that_it_reads():
     (first, *_) = described_signs(load_record("zeng2019"), "direct")
     assert (first.letter, first.written, first.places) == ("e1", True, ("B1", "C1"))
+
+
+def test_a_solution_in_which_the_platform_is_turned_says_so(tmp_path):
+    """Tsai's 3-UPU translates at home; of its sixteen assemblies at nearly equal legs two are in that mode."""
+    path = tmp_path / "mine.toml"
+    assert main(["new", str(path), "3-UPU", "tangential"]) == 0
+    mechanism = assur.load(path)
+    legs = np.array([320.0, 317.0, 318.0])
+    solutions = list(mechanism.direct(legs))
+    turns = [from_home(mechanism, own.joints) for own in solutions]
+    assert [own.mode.endswith("~turned") for own in solutions] == [turn > 0.1 for turn in turns]
+    assert sorted(own.mode for own, turn in zip(solutions, turns, strict=True) if turn < 1e-6) == ["+", "-"]
+    assert len({own.mode for own in solutions}) == len(solutions) == 16
+    for own in solutions:
+        (asked,) = mechanism.direct(legs, mode=own.mode)
+        np.testing.assert_allclose(asked.pose, own.pose, rtol=0, atol=1e-6)
+
+
+def from_home(mechanism, joints):
+    """By how much the platform is turned from home, as a distance of matrices."""
+    first, second = (mechanism.frames(values)["platform"][0] for values in (mechanism.home_values, joints))
+    return np.linalg.norm(second - first)

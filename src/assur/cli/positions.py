@@ -15,6 +15,7 @@ from assur.cli.output import heading, table
 from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.kinematics.modes import TURNED
 from assur.kinematics.naming import described_signs
 from assur.mechanism import Mechanism
 from assur.results.answers.position import (
@@ -333,8 +334,11 @@ def _modes(record: Mechanism, data: Positions) -> Iterable[str]:
     parts = [f"the signs of {', '.join(data.signs)}"] if data.signs else []
     if any(text.partition("~")[0].strip("+-0") for text in texts):
         parts.append("a letter where several share them, which is not kept along paths" if parts else LETTERS)
-    if any("~" in text for text in texts):
+    after = {name for text in texts for name in text.split("~")[1:]}
+    if after - {TURNED}:
         parts.append("after ~ a crossed parallelogram")
+    if TURNED in after:
+        parts.append(f"~{TURNED} where the platform has another orientation than about home, in another operation mode")
     yield f"mode: {', '.join(parts) or 'there is one'}"
     signs = described_signs(record, "direct" if data.problem == "direct" else "inverse") if data.signs else ()
     yield from (f"  {sign.said}" for sign in signs if not sign.written)

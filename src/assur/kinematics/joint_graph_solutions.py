@@ -15,12 +15,13 @@ from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
 from assur.kinematics.loops.parallelograms import crossed_parallelograms, parallelograms
-from assur.kinematics.modes import Problem, is_of_mode, lettered, mode_texts
+from assur.kinematics.modes import TURNED, Problem, is_of_mode, lettered, mode_texts
 from assur.kinematics.naming import sign_meanings, signs_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import status_of
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, Status
+from assur.kinematics.still import turned_platform
 from assur.model.mechanism import MechanismRecord
 
 if TYPE_CHECKING:
@@ -154,14 +155,16 @@ class JointGraphSolutions(SolutionSet):
 
     @cached_property
     def _crossed(self) -> NDArray[np.str_]:
-        """Names (..., K) of the parallelograms that are crossed, each after a tilde."""
+        """What follows a tilde (..., K): names of parallelograms that are crossed, and a platform that is turned."""
         texts = np.zeros(self._there.shape, dtype=object)
         texts[...] = ""
+        own = self.assemblies[self._there]
         if parallelograms(self.record):
-            for place in zip(*np.nonzero(self._there), strict=True):
-                texts[place] = "".join(
-                    f"~{name}" for name in crossed_parallelograms(self.record, self.assemblies[place])
-                )
+            texts[self._there] = [
+                "".join(f"~{name}" for name in crossed_parallelograms(self.record, row)) for row in own
+            ]
+        if len(own):
+            texts[self._there] += np.where(turned_platform(self.record, own), f"~{TURNED}", "").astype(object)
         return texts.astype(np.str_)
 
     def _signs(self, problem: Problem) -> NDArray[np.int8]:

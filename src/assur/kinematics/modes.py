@@ -18,6 +18,8 @@ Problem = Literal["direct", "inverse"]
 Method = Literal["auto", "closed form", "loops", "search"]
 """By what an answer is sought; see `assur.kinematics.position.direct`."""
 SYMBOLS = {1: "+", -1: "-", 0: "0"}
+TURNED = "turned"
+"""Follows a tilde in the name of a mode where the platform, that keeps its orientation about home, has another one."""
 
 
 def sign_names(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:
@@ -108,7 +110,7 @@ def lettered(texts: NDArray[np.str_], exists: NDArray[np.bool_]) -> NDArray[np.s
     """Texts (..., K) that tell solutions apart: those whose signs several of one problem share get a letter after them.
 
     A letter is given in the order of the candidates, at every problem anew: it is not kept along paths. What follows a
-    tilde, crossed parallelograms, is no sign.
+    tilde, crossed parallelograms or that the platform is turned, is no sign.
 
     >>> lettered(np.array(["+", "-", "+", "+"]), np.array([True, True, True, False])).tolist()
     ['+a', '-', '+b', '']
@@ -132,7 +134,7 @@ def _letter(number: int) -> str:
 
 
 def without_letter(label: str) -> str:
-    """The signs of a mode, and its crossed parallelograms.
+    """The signs of a mode, and what follows its tildes.
 
     >>> without_letter("+-b~Pa1"), without_letter("a")
     ('+-~Pa1', '')

@@ -31,6 +31,9 @@ STILL, OTHER = 1e-7, 1e-3
 characteristic lengths. Four digits lie between, so that neither rounding nor a small motion is taken for one."""
 
 
+PLATFORM_TURN = "how the platform is turned"
+
+
 def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
     """What stands still about home and is another at joint values (N, n): its name; "" where nothing is.
 
@@ -48,6 +51,19 @@ def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:
         names[int(np.argmax(row))] if np.any(row) else "how a parallelogram stands" if over else ""
         for row, over in zip(apart, crossed, strict=True)
     ]
+
+
+def turned_platform(record: MechanismRecord, joints: FloatArray) -> BoolArray:
+    """Whether the platform does not turn about home, and is turned at joint values (N, n): it is in another mode.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("three_upu")
+    >>> turned_platform(record, home_values(record)[None])
+    array([False])
+    """
+    names, still, home = _still(record)
+    turn = still & (np.array(names) == PLATFORM_TURN)
+    return np.asarray(np.any((np.abs(_places(record, joints)[1] - home) > OTHER) & turn, axis=1))
 
 
 @lru_cache(maxsize=64)

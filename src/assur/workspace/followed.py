@@ -19,7 +19,7 @@ from assur.kinematics.following.ending import Mode
 from assur.kinematics.following.followed_grid import Continuation, Followed
 from assur.kinematics.following.following import follow
 from assur.kinematics.home import home_values
-from assur.kinematics.modes import mode_signs, sign_names, without_letter
+from assur.kinematics.modes import TURNED, mode_signs, sign_names, without_letter
 from assur.kinematics.naming import declared_signs, mode_names
 from assur.kinematics.parasitic import all_coordinates
 from assur.kinematics.position import inverse
@@ -96,7 +96,8 @@ def _start(
     if not mode:  # a mode without a name is home's: what a search finds may be another
         return None, "home's mode was not followed into the box: no path from home led there"
     for point in spread:
-        solutions = inverse(record, slice_.poses(point[None])[0], mode or None, crossed="~" in mode)
+        crossed = "~" in mode.replace(f"~{TURNED}", "")
+        solutions = inverse(record, slice_.poses(point[None])[0], mode or None, crossed=crossed)
         if np.any(solutions.exists):
             joints = solutions.joints[solutions.exists][0]
             where = ", ".join(
