@@ -65,15 +65,18 @@ def plain(text: str) -> str:
     return escaped.encode("ascii", "replace").decode("ascii")
 
 
-def sign_formula(text: str, angles: Mapping[str, str]) -> str:
-    r"""What a file says of a sign, as mathematics: coordinates of points, and angles of joints by their letters.
+def sign_formula(text: str, letters_of: Mapping[str, str]) -> str:
+    r"""What a file says of a sign, as mathematics: coordinates of points; parameters and angles by their letters.
 
     >>> sign_formula("C1.z - B1.z > 0", {}), sign_formula("sin(D3a - D1) > 0", {"D3a": r"\beta", "D1": r"\alpha"})
     ('z_{C_{1}} - z_{B_{1}} > 0', '\\sin(\\beta - \\alpha) > 0')
     >>> sign_formula("sin(D1) > 0", {"D1": r"\alpha"})
     '\\sin \\alpha > 0'
+    >>> sign_formula("l2*cos(30 deg) - C1.x > 0", {"l2": "l_{2}"})
+    'l_{2}\\cos 30^{\\circ} - x_{C_{1}} > 0'
     """
-    plain_text = re.sub(r"\b(sin|cos|tan)\(([\w.]+)\)", r"\1 \2", text)
+    in_degrees = re.sub(r"(\d) deg\b", r"\1^{\\circ}", text)
+    plain_text = re.sub(r"\b(sin|cos|tan)\(([\w.]+(?:\^{\\circ})?)\)", r"\1 \2", in_degrees)
 
     def letters(match: re.Match[str]) -> str:
         function, joint, axis, name = match.groups()
@@ -81,7 +84,7 @@ def sign_formula(text: str, angles: Mapping[str, str]) -> str:
             return rf"\{function}{'(' if match[0].endswith('(') else ' '}"
         if axis:
             return f"{axis}_{{{joint_letter(joint)}}}"
-        return angles.get(name, rf"\theta_{{{joint_letter(name)}}}")
+        return letters_of.get(name, rf"\theta_{{{joint_letter(name)}}}")
 
-    pattern = r"\b(sin|cos|tan)[( ]|\b([A-Za-z][\w.]*)\.([xyz])\b|\b([A-Za-z][\w.]*)"
+    pattern = r"\b(sin|cos|tan)[( ]|\b([A-Za-z][\w.]*)\.([xyz])\b|(?<!\\)\b([A-Za-z][\w.]*)"
     return re.sub(pattern, letters, plain_text).replace("*", "")

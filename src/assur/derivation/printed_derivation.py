@@ -169,9 +169,10 @@ class _Problem:
 
     @property
     def _meanings(self) -> dict[sympy.Symbol, str]:
-        angles = {coordinate.joint: letter(name) for name, coordinate in self.record.angles.items()}
+        letters = {name: letter(name) for name in (*self.record.parameters, *self.record.angles)}
+        letters |= {coordinate.joint: letter(name) for name, coordinate in self.record.angles.items()}
         said = {
-            sign.name: f"${sign_formula(sign.meaning, angles)}$" if sign.written else plain(sign.meaning)
+            sign.name: f"${sign_formula(sign.meaning, letters)}$" if sign.written else plain(sign.meaning)
             for sign in described_signs(self.record, self.problem)
         }
         return {
