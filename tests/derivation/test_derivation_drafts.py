@@ -37,7 +37,7 @@ CRANK = "R[y] P(4R)[x] R[y] R[y]"
 CRANKED = {
     "three limbs": (["--limb", CRANK], (10.0, 20.0, 250.0), 64),
     "two drives in a limb": (
-        ["--chain", CRANK, "--chain", "C[x] R[x] R[x]", "--actuate", "1.1,1.3,2.1"], (10.0, 20.0, -300.0), 8,
+        ["--chain", CRANK, "--chain", "C[x] R[x] R[x]", "--actuate", "1.1,1.3,2.1"], (60.0, 100.0, 240.0), 8,
     ),
 }  # fmt: skip
 SLIDING = {"3-RRP": "R[z] R[z] P[x]", "3-PRP": "P[y] R[z] P[x]"}

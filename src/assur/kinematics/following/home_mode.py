@@ -98,8 +98,8 @@ class HomeMode:
     def other_words(self) -> str:
         """What is said of an assembly that is not the one that was followed to.
 
-        >>> HomeMode(np.zeros(3), 1, None).other_words, HomeMode(None, 7, None).other_words[-27:]
-        ('another assembly than that of home, as far as 1 path from home tells', 'as 7 paths from home tell')
+        >>> HomeMode(np.zeros(3), 1, None).other_words, HomeMode(None, 7, None).other_words[-29:]
+        ('another assembly than that of home, as far as 1 path from home tells', 'far as 7 paths from home tell')
         """
         tell = f"{count(self.paths, 'path')} from home tell{'s' if self.paths == 1 else ''}"
         return f"another assembly than that of home, as far as {tell}"

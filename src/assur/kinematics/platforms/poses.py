@@ -44,11 +44,10 @@ REAL = 1e-6
 """Largest imaginary part of a pose that is tried as a real one, its largest coordinate being 1."""
 DOUBTFUL = 1e-8
 """The same, above which it may be a real one or not."""
-IMAGINARY = 1e-3
-"""The same, above which it is none, also where zeros meet, which are known to half of the digits."""
-INFINITE, NEARLY_INFINITE = 1e-12, 1e-6
+INFINITE, NEARLY_INFINITE, FAR = 1e-12, 1e-6, 1e-4
 """N(e), the largest coordinate being 1, of what is no pose; where zeros meet they are known to half of the digits. What
-is farther away than a thousand sizes is no pose that a limb reaches, so that nothing real is lost by the second."""
+is farther away than a thousand sizes is no pose that a limb reaches, so that nothing real is lost by the second; nor by
+the third, a hundred sizes, up to which ends are left that are not regular: there poses near infinity meet it."""
 ZERO, NOT_ZERO = 1e-8, 1e-6
 """Up to where a condition holds at a zero of combinations, and from where it does not."""
 
@@ -142,14 +141,13 @@ def _sorted_out(conditions: Conditions, zeros: _Zeros, chart: FloatArray, size: 
     missed = np.max(np.abs(products(soma) @ conditions.quadrics.T), axis=1, initial=0.0)
     infinite = np.abs(norm_of(soma)) <= zeros.infinite
     off = np.max(np.abs(soma.imag), axis=1, initial=0.0)
-    known = ~infinite & (missed <= ZERO) & (zeros.regular | (off > IMAGINARY))
-    real = known & (off <= REAL)
-    maybe = ~infinite & (missed <= NOT_ZERO) & (off <= IMAGINARY)
-    unknown = maybe & (~known | (off > DOUBTFUL) & (off <= REAL))
+    regular = zeros.regular & (missed <= ZERO) & ~infinite
+    real = regular & (off <= REAL)
+    unknown = ~infinite & (missed <= NOT_ZERO) & (~regular | (off > DOUBTFUL) & (off <= REAL))
     places = frames_of(soma[real].real)
     frames = tuple(zip(places[0], places[1] * size, strict=True))
     lost = int(np.sum(unknown)) + zeros.lost
-    return Poses(frames, soma[known], int(np.sum(infinite)), lost, len(soma) + zeros.lost)
+    return Poses(frames, soma[regular], int(np.sum(infinite)), lost, len(soma) + zeros.lost)
 
 
 def _chart(linear: FloatArray) -> FloatArray:
@@ -195,7 +193,7 @@ def _followed(system: ExpandedSystem, starts: ComplexArray, chart: FloatArray) -
     ends = solve(system, starts, lambda x: np.abs(norm_of(_scaled(x @ chart.T))) <= NEARLY_INFINITE)
     kept = ends.end != PathEnd.lost
     regular = ends.end[kept] == PathEnd.regular
-    return _Zeros(ends.x[kept], regular, int(np.sum(~kept)), np.where(regular, INFINITE, NEARLY_INFINITE))
+    return _Zeros(ends.x[kept], regular, int(np.sum(~kept)), np.where(regular, INFINITE, FAR))
 
 
 def _scaled(x: ComplexArray) -> ComplexArray:

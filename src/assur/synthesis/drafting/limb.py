@@ -141,7 +141,8 @@ class LimbDrawing:
         centre: Point = (Linear(), Linear(), dimension(name) if name else Linear())
         if len(element.axes) == 1 and name:
             size = f"{letter}_d"
-            value = round(REACH * (1.5 - 0.5 * share))  # the platform turns within its limbs
+            alone = len(self.centres) == 1  # then the platform turns about it, within its limbs
+            value = round(REACH * (1.5 - 0.5 * share if alone else 1.0 + 0.5 * share))
             self._dimension(letter, Dimension(size, value, f"from the point {element.point} to joint {letter}"))
             centre = plus(centre, along(size, element.axes[0]))
         return ElementEnds(centre, centre, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
