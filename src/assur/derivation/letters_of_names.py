@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 from assur.model.mechanism import Input
 from assur.results.latex_text import letter
@@ -63,6 +63,16 @@ def plain(text: str) -> str:
     escaped = _SPECIAL.sub(r"\\\1", text.replace("\\", "/"))
     escaped = re.sub(r"[<>|^~]", lambda match: f"${SHIFTED.get(match[0], match[0])}$", escaped)
     return escaped.encode("ascii", "replace").decode("ascii")
+
+
+def plain_with_joints(text: str, joints: Container[str]) -> str:
+    r"""Words of a file in LaTeX, with the letters of joints.
+
+    >>> plain_with_joints("leg1.B lies ahead of leg1.A.", {"leg1.A", "leg1.B"})
+    '$B_{1}$ lies ahead of $A_{1}$.'
+    """
+    parts = re.split(r"([A-Za-z]\w*(?:\.\w+)*)", text)
+    return "".join(f"${joint_letter(part)}$" if part in joints else plain(part) for part in parts)
 
 
 def sign_formula(text: str, letters_of: Mapping[str, str]) -> str:

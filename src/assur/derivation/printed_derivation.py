@@ -13,7 +13,7 @@ import sympy
 
 from assur.derivation.closed_form_formulas import ClosedFormFormulas
 from assur.derivation.joint_formulas import Pointing
-from assur.derivation.letters_of_names import input_letter, plain, sign_formula
+from assur.derivation.letters_of_names import input_letter, plain_with_joints, sign_formula
 from assur.derivation.mode_signs import RootSigns, matched_signs
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.numeric_example import ExampleBranch, angle, example_branches
@@ -172,7 +172,9 @@ class _Problem:
         letters = {name: letter(name) for name in (*self.record.parameters, *self.record.angles)}
         letters |= {coordinate.joint: letter(name) for name, coordinate in self.record.angles.items()}
         said = {
-            sign.name: f"${sign_formula(sign.meaning, letters)}$" if sign.written else plain(sign.meaning)
+            sign.name: f"${sign_formula(sign.meaning, letters)}$"
+            if sign.written
+            else plain_with_joints(sign.meaning, self.record.joints)
             for sign in described_signs(self.record, self.problem)
         }
         return {
