@@ -85,7 +85,7 @@ DIVIDED = (
 LOOPED = (
     # branches of inner loops that lean against each other, or away, so that a loop is far from where it folds
     DraftLayout(knee=200.0, twist=100.0, spread=450.0, lean=0.7, elbow=0.8),
-    DraftLayout(knee=120.0, twist=100.0, spread=450.0, lean=0.7, elbow=0.8),
+    DraftLayout(knee=160.0, twist=100.0, spread=450.0, lean=0.7, elbow=0.8),
     DraftLayout(knee=0.0, side=-120.0, twist=50.0, rough=20.0, elbow=0.8),
     DraftLayout(wide=1.5, knee=60.0, side=120.0, twist=50.0, spread=250.0, lean=0.3, elbow=0.0),
     DraftLayout(wide=1.5, knee=0.0, side=120.0, twist=-100.0, spread=350.0, elbow=0.0),
