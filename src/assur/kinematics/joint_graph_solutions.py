@@ -123,7 +123,7 @@ class JointGraphSolutions(SolutionSet):
     @cached_property
     def labels(self) -> NDArray[np.str_]:
         """Text (..., K) of the mode: signs, and a letter where several solutions of a problem share them."""
-        return lettered(np.char.add(mode_texts(self._signs(self.problem)), self._crossed), self._there)
+        return lettered(np.char.add(mode_texts(self._signs(self.problem)), self._after_tilde), self._there)
 
     @cached_property
     def other_labels(self) -> NDArray[np.str_]:
@@ -154,7 +154,7 @@ class JointGraphSolutions(SolutionSet):
         return np.asarray(np.all(np.isfinite(self.assemblies), axis=-1))
 
     @cached_property
-    def _crossed(self) -> NDArray[np.str_]:
+    def _after_tilde(self) -> NDArray[np.str_]:
         """What follows a tilde (..., K): names of parallelograms that are crossed, and a platform that is turned."""
         texts = np.zeros(self._there.shape, dtype=object)
         texts[...] = ""
