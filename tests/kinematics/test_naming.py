@@ -85,7 +85,7 @@ def test_a_mode_that_is_given_by_a_number_is_refused_with_its_name(problem):
             solve(record, given, f"-/{number}", method="search")
     with pytest.raises(UnknownNameError, match="of 99 there is none"):
         solve(record, given, "99", method="search")
-    with pytest.raises(UnknownNameError, match="modes of one problem are listed by"):
+    with pytest.raises(UnknownNameError, match="a number is no name: at home"):
         solve(record, [given, given], "3", method="search")
 
 

@@ -139,23 +139,31 @@ def _answer(
         raise UsageError("crossed parallelograms are found on the joint graph", hint="leave the method out")
     if kernel is not None and method not in ("loops", "search") and not crossed:
         if not isinstance(kernel, Eliminant | PolynomialSystem):
+            if mode is not None and mode.isdecimal():
+                checked_mode(record, problem, mode, given, method)  # which refuses it, with its new name
             return branches(record, problem, given, mode)
         from assur.kinematics.closed_form.polynomials import polynomial_solutions  # no branch needs it
 
-        return polynomial_solutions(record, kernel, given, _lettered_mode(record, problem, mode, given, method), method)
+        return polynomial_solutions(record, kernel, given, checked_mode(record, problem, mode, given, method), method)
     from assur.kinematics.assemblies import assemblies  # loops and searches, which no closed form needs
 
     return assemblies(
-        record, problem, given, _lettered_mode(record, problem, mode, given, method), method, crossed=crossed
+        record, problem, given, checked_mode(record, problem, mode, given, method), method, crossed=crossed
     )
 
 
-def _lettered_mode(
-    record: MechanismRecord, problem: Problem, mode: str | None, given: FloatArray, method: Method
+def checked_mode(
+    record: MechanismRecord,
+    problem: Problem,
+    mode: str | None,
+    given: FloatArray | None = None,
+    method: Method = "auto",
 ) -> str:
     """A mode as it may be asked of solutions on the joint graph: signs, a letter of those that share them, or both.
 
-    A number names none; the refusal says which name the solution has that it counted.
+    Errors:
+        UnknownNameError: it is none. A number names none; the refusal says which name the solution has that it counted
+            where it was asked, or at home where it was asked of many problems at once.
     """
     if mode is None:
         return ""
@@ -169,25 +177,40 @@ def _lettered_mode(
             choices = ["".join(signs) for signs in itertools.product("+-", repeat=len(names))]
         each = f"one sign + or - for each of: {', '.join(names)}; " if names else ""
         hint = f"{each}a letter may follow, as in {'+' * len(names)}a, where several solutions share them"
-        renamed = _renamed(record, problem, mode, given, method)
-        hint = f"{hint}; {renamed}" if renamed else hint
+        now = renamed(record, problem, mode, given, method)
+        hint = f"{hint}; {now}" if now else hint
         raise UnknownNameError(f"{_kind(problem)} of {record.name}", mode, choices if names else ["a", "b"], hint=hint)
     return mode
 
 
-def _renamed(record: MechanismRecord, problem: Problem, mode: str, given: FloatArray, method: Method) -> str:
-    """What a mode is called that is given by a number, of all solutions or of those that share signs; "" of others."""
+def renamed(
+    record: MechanismRecord, problem: Problem, mode: str, given: FloatArray | None = None, method: Method = "auto"
+) -> str:
+    """What a mode is called that is given by a number, of all solutions or of those that share signs; "" of others.
+
+    >>> from assur.model.registry import load_record
+    >>> renamed(load_record("planar_3rpr"), "inverse", "1"), renamed(load_record("planar_3rpr"), "inverse", "+++")
+    ('a number is no name: at home number 1 is now +++', '')
+    """
     numbered = re.fullmatch(r"([-+0]*)/?([1-9]\d{0,3})", mode)
     if not numbered:
         return ""
-    said = "a number is no name"
-    if given.ndim > 1:
-        return f"{said}; {_kind(problem)}s of one problem are listed by `assur {problem}`"
-    solutions = _answer(record, problem, given, None, method, crossed=False)
+    one = given is not None and given.size == given.shape[-1]
+    asked = given.reshape(-1) if given is not None and one else _home(record, problem)
+    solutions = _answer(record, problem, asked, None, method, crossed=False)
     labels = [str(label) for label in solutions.labels[solutions.exists]]
     alike, number = [label for label in labels if label.startswith(numbered[1])], int(numbered[2])
     known = f"number {mode} is now {alike[number - 1]}" if number <= len(alike) else f"of {mode} there is none"
-    return f"{said}: where this was asked {known}"
+    return f"a number is no name: {'where this was asked' if one else 'at home'} {known}"
+
+
+def _home(record: MechanismRecord, problem: Problem) -> FloatArray:
+    """Home's pose (m,), or its inputs (k,)."""
+    from assur.kinematics.home import home_values  # loops are closed there, which few answers need
+    from assur.kinematics.pose import pose_of
+
+    home = home_values(record)
+    return pose_of(record, home) if problem == "inverse" else border.inputs_of(record, home)
 
 
 def _kind(problem: Problem) -> str:

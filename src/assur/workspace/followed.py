@@ -22,7 +22,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import TURNED, mode_signs, sign_names, without_letter
 from assur.kinematics.naming import declared_signs, mode_names
 from assur.kinematics.parasitic import all_coordinates
-from assur.kinematics.position import inverse
+from assur.kinematics.position import checked_mode, inverse
 from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
@@ -70,7 +70,7 @@ def over_grid(
 
 
 def _signs(record: MechanismRecord, mode: str) -> NDArray[np.int8]:
-    text = without_letter(mode).partition("~")[0]
+    text = without_letter(checked_mode(record, "inverse", mode) if mode else "").partition("~")[0]
     if not sign_names(record, "inverse"):
         return np.zeros(0, dtype=np.int8)
     return np.array(mode_signs(record, "inverse", text), dtype=np.int8)

@@ -18,7 +18,7 @@ from assur.kinematics.status import Status
 from assur.kinematics.still import otherwise
 from assur.mechanism import load
 from assur.performance.indices import indices
-from assur.singularity.verdict import verdict
+from assur.singularity.verdict import verdict, verdict_at
 from assur.work import where
 
 SLIDER_CRANK = ["R[z] R[z]", "P[x] R[z]"]
@@ -113,17 +113,21 @@ def test_signs_exclude_what_the_closed_form_says_is_not_there(bare):
     assert indices(bare, pose).status == Status.unreachable
 
 
-def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
-    """Home's own signs are there, but the straight way meets a parallel singularity: nothing is proved."""
+def test_where_the_way_meets_a_parallel_singularity_the_mode_is_still_that_of_the_closed_form(bare):
+    """Home's own signs are there; branches of the inverse problem do not merge where the straight way stops."""
     pose = [-90.0, 10.0, 118.0]
+    whole = load("zeng2019")
     there = inverse(bare, pose)
-    joints = there.joints[there.exists]
     assert there.complete
-    assert not np.all(of_other_signs(bare, "inverse", joints))
+    assert not np.all(of_other_signs(bare, "inverse", there.joints[there.exists]))
     assert np.array_equal(named_signs(bare, "inverse", bare.home_values), [1, 1, -1, 1, 1])
-    found = home_mode_at(bare, pose, detours=1)
-    assert (found.status, found.never) == (Status.undecided, "")
-    assert "which is no proof" in found.words
+    found = home_mode_at(bare, pose, detours=0, known=there)
+    assert (found.through, found.stopped.kind, found.never) == ("parallel", "parallel", "")
+    assert found.words == "home's mode, followed from home, with parallel singularities let through"
+    by_formulas = inverse(whole, pose, "++-++").joints[0]
+    assert np.allclose(np.exp(1j * found.joints[3:]), np.exp(1j * by_formulas[3:]), atol=1e-6)
+    assert np.allclose(found.joints[:3], by_formulas[:3], atol=1e-6)
+    assert verdict_at(bare, found.joints).kind == verdict(whole, pose, "++-++").kind == "regular"
 
 
 def test_who_is_ended_among_detours_is_told_where_the_straight_path_stopped(bare, monkeypatch):

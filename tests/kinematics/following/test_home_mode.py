@@ -75,6 +75,20 @@ def test_a_mode_of_a_closed_form_is_the_one_that_following_keeps():
         assert np.allclose(indices(bare, poses)[name], indices(record, poses)[name], rtol=1e-6)
 
 
+def test_a_working_mode_is_followed_through_parallel_singularities_to_what_its_closed_form_names():
+    """Branches of the inverse problem do not merge there; every command answers of the same configuration."""
+    record, pose = load("planar_3rrr"), [-8.3, 10.4, 1.2]
+    bare = dataclasses.replace(record, closed_form=None)
+    found = home_mode_at(bare, pose)
+    assert (found.reached, found.through, found.stopped.kind) == (True, "parallel", "parallel")
+    named = record.inverse(pose, record.modes.default_working).joints[0]
+    assert np.allclose(np.exp(1j * found.joints), np.exp(1j * named), atol=1e-6)
+    here = verdict(bare, pose)
+    assert (here.kind, here.home) == ("regular", True)
+    assert "with parallel singularities let through" in here.home_by
+    assert indices(bare, pose).status == Status.regular
+
+
 @pytest.mark.parametrize("command", ["indices", "singularity"])
 def test_commands_say_by_what_it_is_home_and_exit_4_where_it_is_not_reached(path, command, capsys):
     assert main([command, path, "--pose", "10", "300", "0"]) == 0

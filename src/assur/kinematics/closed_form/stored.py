@@ -18,6 +18,7 @@ from assur.kinematics.closed_form.home_sweep import HOME, HomeSweep
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, mode_signs
 from assur.kinematics.naming import mode_names
+from assur.kinematics.position import renamed
 from assur.kinematics.status import branch_kernel
 from assur.model.mechanism import MechanismRecord
 
@@ -102,8 +103,9 @@ def stored_sweep(
 def _home(record: MechanismRecord, problem: Problem, mode: str) -> str:
     """The one mode that is swept without a closed form, by any of its names."""
     if mode not in ("", HOME) and mode != mode_names(record, home_values(record))[problem == "direct"]:
+        now = renamed(record, problem, mode)
         raise UsageError(
             f"{record.name} has no closed form: a sweep follows home's mode, not '{mode}'",
-            hint="leave the mode out; `assur inverse` and `assur direct` give every mode of one problem",
+            hint=f"leave the mode out; `assur {problem}` gives every mode of one problem{'; ' if now else ''}{now}",
         )
     return HOME

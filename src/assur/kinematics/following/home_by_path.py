@@ -27,7 +27,7 @@ def home_by_path(solutions: SolutionSet, labels: list[str]) -> HomeSolution:
         before = f" before {WORDS[there.stopped.kind]}" if there.stopped is not None else ""
         return HomeSolution((None,) * len(labels), f"home: not decided, as the straight path from home stops{before}")
     marks = tuple(there.is_home(solutions.record, joints) for joints in solutions.joints[solutions.exists])
-    words = marked_words(labels, marks, "followed straight from home", "none of these, followed straight")
+    words = marked_words(labels, marks, there.how, f"none of these, {there.how}")
     return HomeSolution(marks, words)
 
 

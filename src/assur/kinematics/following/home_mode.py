@@ -1,7 +1,8 @@
 """Home's mode elsewhere: the configuration to which home is followed, which numbers of solutions cannot name.
 
 Without a closed form the solutions of a pose are told apart by a search, whose numbers begin anew at every pose. Which
-of them belongs to home's mode is decided by following: straight from home, and where that stops by a few detours. What
+of them belongs to home's mode is decided by following: straight from home, and where that stops by a few detours, else
+through singularities that are none of that mode: parallel ones of a working mode, serial ones of an assembly mode. What
 no path leads to may still belong to it. That it does not is proved where
 
 - all solutions are known, and each has another sign than home among those that name modes, or another value of what
@@ -59,6 +60,7 @@ class HomeMode:
         never: what proves that home's mode does not reach it; empty where that is not proved.
         others: where it is not reached, the modes of the solutions that are known.
         all_known: whether these are known to be all.
+        through: the kind of singularity through which it was followed; empty where the path is regular.
     """
 
     joints: FloatArray | None
@@ -67,6 +69,7 @@ class HomeMode:
     never: str = ""
     others: tuple[str, ...] = ()
     all_known: bool = False
+    through: str = ""
 
     @property
     def reached(self) -> bool:
@@ -85,14 +88,19 @@ class HomeMode:
         >>> print(HomeMode(np.zeros(3), 1, None).words)
         home's mode, followed straight from home
         """
-        if self.joints is not None:
-            return (
-                "home's mode, followed straight from home" if self.paths == 1 else "home's mode, followed by a detour"
-            )
+        if self.reached:
+            return f"home's mode, {self.how}"
         if self.never:
             return f"home's mode does not reach it, which is proved: {self.never}{self._elsewhere}"
         straight = f": the straight one {self.stopped}" if self.stopped is not None else ""
         return f"none of {self.paths} paths from home leads there in home's mode, which is no proof{straight}"
+
+    @property
+    def how(self) -> str:
+        """How home was followed to it."""
+        if self.through:
+            return f"followed from home, with {self.through} singularities let through"
+        return "followed straight from home" if self.paths == 1 else "followed by a detour"
 
     @property
     def other_words(self) -> str:
@@ -174,12 +182,29 @@ def _home_mode_at(
         if path.stopped is None:
             return HomeMode(path.joints[-1], tried, straight.stopped)
         stops.append(path.stopped)
+    beyond = None if never else _beyond(record, goal, prescribed, detours)
+    if beyond is not None:
+        return HomeMode(beyond, tried, straight.stopped, through=_passed(prescribed))
     if not never and len(goal) == 1:
         never = _folded(prescribed, stops)
     if known is None and not solutions.complete:
         solutions = solve(record, goal)
     modes = tuple(str(label) for label in solutions.labels[solutions.exists])
     return HomeMode(None, tried, straight.stopped, never, modes, solutions.complete)
+
+
+def _beyond(record: MechanismRecord, goal: FloatArray, prescribed: Prescribed, detours: int) -> FloatArray | None:
+    """Joint values (n,) to which the signs and branches of home's mode alone are followed; None where no way leads."""
+    if prescribed == "poses" and detours:
+        joints = from_home.followed_by_ways(record, goal[None])
+    else:
+        joints, _ = from_home.followed_from_home(record, goal[None], held=prescribed)
+    return joints[0] if np.all(np.isfinite(joints[0])) else None
+
+
+def _passed(prescribed: Prescribed) -> str:
+    """The kind of singularity at which no branches of this problem merge."""
+    return "serial" if prescribed == "inputs" else "parallel"
 
 
 def _all_excluded(record: MechanismRecord, solutions: SolutionSet) -> str:
@@ -204,7 +229,7 @@ def _all_excluded(record: MechanismRecord, solutions: SolutionSet) -> str:
 
 def _folded(prescribed: Prescribed, stops: Sequence[Stop]) -> str:
     """Why no path along one coordinate leads there: home's branch folds back before it on every way."""
-    kind = "parallel" if prescribed == "inputs" else "serial"
+    kind = "parallel" if prescribed == "inputs" else "serial"  # at which branches of this problem merge
     ended = all(stop.kind == kind and stop.turns_back and stop.share < 1.0 - CLEARLY for stop in stops)
     ways = "" if len(stops) == 1 else ", either way round"
     return f"its branch ends before it{ways}, where it folds back at a {kind} singularity" if ended else ""
