@@ -20,15 +20,25 @@ def test_it_prints_reasons_before_equations_and_the_sets_in_their_order(capsys):
     assert "every branch closes every loop" in text
 
 
-def test_what_resists_is_named_with_exit_code_5_and_nothing_is_written(tmp_path, capsys):
-    target = tmp_path / "closed_form.py"
-    assert main(["derive", "gough_stewart", "-o", str(target), "--json"]) == 5
-    answer = json.loads(capsys.readouterr().out)
-    direct, inverse = answer["problems"]
+def test_what_resists_is_named_with_its_unknowns_and_its_count_and_no_code_is_written(tmp_path, assur_cli):
+    target, document = tmp_path / "closed_form.py", tmp_path / "d.tex"
+    ran = assur_cli("derive", "gough_stewart", "-o", str(target), "--latex", str(document), "--json")
+    assert ran.code == 5
+    direct, inverse = ran.json["problems"]
     assert (direct["status"], inverse["status"]) == ("not_derived", "derived")
     assert "platform" in direct["why"]
-    assert answer["closed_form"] is None
+    assert direct["resists"] == {
+        "links": ["platform"],
+        "unknowns": [["e0", "e1", "e2", "e3"], ["g0", "g1", "g2", "g3"]],
+    }
+    assert (direct["count"]["solutions"], direct["count"]["of"]) == (40, "poses")
+    assert (ran.json["closed_form"], ran.json["latex"]) == (None, str(document))
     assert not target.exists()
+    text = document.read_text(encoding="ascii")
+    assert "Not derived: platform: not solved for e0, e1" in text
+    assert "40 poses over complex numbers" in text
+    assert "probable, not proved." in text
+    assert r"\section{Direct problem: the pose at given inputs}" in text
 
 
 def test_a_polynomial_is_an_answer_and_says_what_roots_it_cannot_have(capsys):
@@ -132,15 +142,6 @@ def test_a_cosine_of_a_number_is_no_part_of_a_closed_form(assur_cli, tmp_path):
     answer = assur_cli("derive", str(file), "-o", str(tmp_path / "closed_form.py"))
     assert answer.code == 5
     assert "angle among the parameters" in answer.out + answer.err
-
-
-def test_the_document_is_written_also_of_a_problem_that_resists(tmp_path, assur_cli):
-    target = tmp_path / "d.tex"
-    ran = assur_cli("derive", "gough_stewart", "--latex", str(target), "--json")
-    assert (ran.code, ran.json["latex"]) == (5, str(target))
-    text = target.read_text(encoding="ascii")
-    assert "Not derived: platform" in text
-    assert r"\section{Direct problem: the pose at given inputs}" in text
 
 
 def test_a_document_that_is_no_tex_file_is_refused(assur_cli):

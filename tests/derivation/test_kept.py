@@ -118,9 +118,9 @@ def test_a_document_is_written_once_for_each_choice_of_problems(tmp_path, monkey
         calls.append(len(calls))
         return f"document {len(calls)}"
 
-    assert [derived_document(record, ("direct",), written) for _ in range(2)] == ["document 1"] * 2
-    assert derived_document(record, ("direct", "inverse"), written) == "document 2"
-    assert derived_document(load_record("fivebar", l1=0.5), ("direct",), written) == "document 3"
+    assert [derived_document(record, {"direct": ""}, written) for _ in range(2)] == ["document 1"] * 2
+    assert derived_document(record, {"direct": "", "inverse": ""}, written) == "document 2"
+    assert derived_document(load_record("fivebar", l1=0.5), {"direct": ""}, written) == "document 3"
     assert derived_closed_form(record).startswith('"""Closed form of fivebar')
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from assur.cli import exit_codes
-from assur.cli.derive_text import shown
+from assur.cli.derive_text import resistance, shown
 from assur.cli.options import Outcome
 from assur.cli.paths import output_file
 from assur.derivation.closed_conditions import closed_conditions
@@ -25,12 +25,13 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations
 from assur.derivation.phrases import direction
 from assur.derivation.platform_rotation import posed_entries
+from assur.derivation.pose_system import UNKNOWNS
 from assur.derivation.proof import proof
 from assur.derivation.reach_meanings import ReachMeanings
 from assur.derivation.reasons import left_out, sentences
 from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.solution import AnalyticSolution, analytic_solution
-from assur.derivation.solution_count import SECONDS, solution_count
+from assur.derivation.solution_count import SECONDS, SolutionCount, solution_count
 from assur.errors import AssurError, UsageError
 from assur.kinematics.modes import Problem
 from assur.mechanism import Mechanism
@@ -79,10 +80,10 @@ def outcome(
     parts = tuple(_derived(record, name) for name in asked)
     fine = all(part.status == "derived" for part in parts)
     not_written = _not_written(record, path, source) if fine and (path or source) else ""
+    parts = tuple(_with_count(record, part, prove) for part in parts)
     if document is not None:
         _write_document(document, record, parts)
     fine = fine and not not_written
-    parts = tuple(_with_count(record, part, prove) for part in parts)
     fine = fine and all(part.count is ABSENT or part.count.solutions in (None, part.branches) for part in parts)
     if prove:
         parts = tuple(_with_proof(record, part) for part in parts)
@@ -123,16 +124,17 @@ def _write_document(path: Path, record: Mechanism, parts: Sequence[DerivedProble
     from assur.derivation.printed_derivation import printed_derivation
     from assur.derived_topology import topology
 
+    why = {NAMES[own.problem]: "; ".join(resistance(own)) if own.why else "" for own in parts}
+
     def written() -> str:
         solved = {NAMES[own.problem]: analytic_solution(record, NAMES[own.problem]) for own in parts if not own.why}
-        why = {NAMES[own.problem]: own.why for own in parts if own.why}
         try:
             loops = topology(record)
         except AssurError:  # a mechanism may have formulas and no topology that the theory gives
             loops = None
-        return document(printed_derivation(record, solved, why), loops)
+        return document(printed_derivation(record, solved, {key: own for key, own in why.items() if own}), loops)
 
-    write_whole(path, derived_document(record, [NAMES[own.problem] for own in parts], written))
+    write_whole(path, derived_document(record, why, written))
 
 
 def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
@@ -149,7 +151,8 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
             _sets(error.sets), {}, {}, resists=resists, left_out=(*left_out(error.placed),), sides=error.placed.sides,
         )  # fmt: skip
     except NotDerivedError as error:
-        return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {})
+        whole = ResistingSet((record.platform.link,), UNKNOWNS) if problem == "direct" else ABSENT
+        return DerivedProblem(problem, "not_derived", str(error), None, None, (), (), (), {}, {}, resists=whole)
     return DerivedProblem(
         problem, "derived", "", solution.branches, True, tuple(_reasons(solution.placed)), (*record.generalised,),
         _sets(solution.sets, ReachMeanings(solution)), {own.symbol.name: str(own.formula) for own in solution.lengths},
@@ -203,9 +206,10 @@ def _with_count(record: Mechanism, part: DerivedProblem, prove: bool) -> Derived
         return part
     try:
         own = solution_count(record, NAMES[part.problem], SECONDS if prove else FEW_SECONDS)
-    except NotDerivedError:
-        return part
-    return replace(part, count=CountedSolutions(own.solutions, own.why, own.primes, own.seeds, own.program))
+    except NotDerivedError as error:
+        own = SolutionCount(None, str(error), (), (), "")
+        return part if part.resists is ABSENT else replace(part, count=CountedSolutions(**asdict(own)))
+    return replace(part, count=CountedSolutions(**asdict(own)))
 
 
 def _with_proof(record: Mechanism, part: DerivedProblem) -> DerivedProblem:

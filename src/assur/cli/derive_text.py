@@ -34,14 +34,14 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
             )
         if part.sets or part.reasons:
             yield ""
-        yield from _end(part) if derived else _resistance(part)
+        yield from _end(part) if derived else resistance(part)
         yield from (f"for dimensions with {_relation(own)}" for own in part.relations)
         yield from (f"left out: {text}" for text in part.left_out)
         if part.vanish_at_home:
             where = " and ".join(f"{name} = 0" for name in part.vanish_at_home)
             yield f"at home {where}: with the file's dimensions the formulas degenerate there, or branches meet"
         yield from _cases(part)
-        yield from _counted(part)
+        yield from _counted(part) if derived else ()
         yield ""
     loose = [factor for factor in data.factors if factor.kind == "constraint"]
     for factors, said in (
@@ -110,12 +110,15 @@ def _cases(part: DerivedProblem) -> Iterator[RenderableType]:
         yield Verbatim(f"where {own.condition} = 0{f', as {where}' if where else ''}: {said}")
 
 
-def _resistance(part: DerivedProblem) -> Iterator[str]:
-    """What is not solved, and why."""
+def resistance(part: DerivedProblem) -> Iterator[str]:
+    """What is not solved, why, and how many solutions it probably has."""
     if part.resists is not ABSENT:
         unknowns = ", ".join(name for group in part.resists.unknowns for name in group)
-        yield f"{' and '.join(part.resists.links)}: not solved for {unknowns}"
+        pose = part.count is not ABSENT and part.count.of == "poses"
+        said = ", its quaternion e and the product g of this with its place" if pose else ""
+        yield f"{' and '.join(part.resists.links)}: not solved for {unknowns}{said}"
     yield part.why
+    yield from _counted(part)
 
 
 def _counted(part: DerivedProblem) -> Iterator[str]:
@@ -124,10 +127,10 @@ def _counted(part: DerivedProblem) -> Iterator[str]:
         return
     how = f"modulo {' and '.join(map(str, own.primes))}, drawn by seeds {' and '.join(map(str, own.seeds))}"
     if own.solutions is None:
-        yield f"solutions not counted: {own.why}"
+        yield f"{own.of} not counted: {own.why}"
         return
     same = "" if part.branches in (None, own.solutions) else f", AND NOT {part.branches}"
     yield (
-        f"{own.solutions} solutions over complex numbers{same}, counted by {own.program} without this elimination "
+        f"{own.solutions} {own.of} over complex numbers{same}, counted by {own.program} without this elimination "
         f"{how}: probable, not proved"
     )

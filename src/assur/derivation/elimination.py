@@ -170,7 +170,9 @@ class _Set:
         given = len(self.equations) - len(unknowns)
         values, lines = self.meeting()
         lines = self._independent(lines)
-        {"circle": self._circle, "rod": self._sphere, "stroke": self._vector}[self.base.kind](lines)
+        if self.base.kind not in (meets := {"circle": self._circle, "rod": self._sphere, "stroke": self._vector}):
+            raise NotDerivedError(f"{self.base.name}: of a side no more than its length is known")
+        meets[self.base.kind](lines)
         for unknown in unknowns:
             self._define(unknown, value_of(values[unknown]))
         return SolvedSet(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -47,14 +47,14 @@ def derived_closed_form(record: MechanismRecord) -> str:
     return text
 
 
-def derived_document(record: MechanismRecord, problems: Sequence[Problem], write: Callable[[], str]) -> str:
-    """The LaTeX document of some problems of a mechanism, written once for each file.
+def derived_document(record: MechanismRecord, why: Mapping[Problem, str], write: Callable[[], str]) -> str:
+    """The LaTeX document of some problems of a mechanism, with why each is not derived, "" where it is; written once.
 
     >>> from assur.model.registry import load_record
-    >>> derived_document(load_record("fivebar"), (), lambda: "none")
+    >>> derived_document(load_record("fivebar"), {}, lambda: "none")
     'none'
     """
-    return derived_text(record, f"document {' '.join(problems)}", write)
+    return derived_text(record, f"document {dict(why)}", write)
 
 
 def derived_text(record: MechanismRecord, what: str, write: Callable[[], str], printers: Sequence[Path] = ()) -> str:

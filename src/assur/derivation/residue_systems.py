@@ -18,14 +18,14 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import sympy
 
-from assur.derivation.truncated_ideals import solutions
+from assur.derivation.normal_forms import solutions
 from assur.derivation.witness import ModularWitness
 
 Monomial = tuple[int, ...]
@@ -39,11 +39,12 @@ PATIENCE = 20
 
 @dataclass(frozen=True)
 class ResidueSystem:
-    """Polynomials in some unknowns, modulo a prime."""
+    """Polynomials in some unknowns, modulo a prime; if `even`, a solution and its negative are counted as one."""
 
     prime: int
     unknowns: int
     polynomials: tuple[Polynomial, ...]
+    even: bool = False
 
     def reduced(self) -> ResidueSystem:
         """The same solutions in fewer unknowns: those are left out that linear equations say.
@@ -63,7 +64,7 @@ class ResidueSystem:
             gone.append(place)
         kept = [k for k in range(self.unknowns) if k not in gone]
         shorter = tuple({tuple(powers[k] for k in kept): part for powers, part in own.items()} for own in left)
-        return ResidueSystem(self.prime, len(kept), shorter)
+        return replace(self, unknowns=len(kept), polynomials=shorter)
 
     def _replaced(self, own: Polynomial, place: int, value: Polynomial) -> dict[Monomial, int]:
         total: dict[Monomial, int] = {}
@@ -94,7 +95,7 @@ class ResidueSystem:
         own = self.reduced()
         if own._trivial or shutil.which("msolve"):
             leading, program = own._leading_monomials(seconds)
-            return staircase(leading, own.unknowns), program
+            return _paired(staircase(leading, own.unknowns), own.even), program
         try:
             number, program = own._in_process("count", seconds)
         except subprocess.TimeoutExpired as error:
@@ -153,6 +154,7 @@ class ResidueSystem:
             self.prime,
             self.unknowns,
             [[[list(powers), part] for powers, part in own.items()] for own in self.polynomials],
+            self.even,
         ]
         words = [sys.executable, "-m", "assur.derivation.residue_systems", what]
         run = _run(words, seconds, json.dumps(data))
@@ -246,26 +248,33 @@ def _under(leading: Sequence[Monomial], unknowns: int, powers: Monomial) -> Iter
             return
 
 
-def _leading(prime: int, unknowns: int, polynomials: Sequence[Sequence[tuple[Sequence[int], int]]]) -> list[Monomial]:
+def _paired(count: int | None, even: bool) -> int | None:
+    """A count, of solutions and their negatives together where these come in pairs."""
+    return count // 2 if even and count is not None else count
+
+
+Written = Sequence[Sequence[tuple[Sequence[int], int]]]
+"""Polynomials as lists of powers and coefficients, as JSON has them."""
+
+
+def _leading(prime: int, unknowns: int, polynomials: Written, _even: bool = False) -> list[Monomial]:
     """Leading monomials of a Groebner basis, by SymPy."""
     from sympy import GF
     from sympy.polys.groebnertools import groebner
     from sympy.polys.orderings import grevlex
     from sympy.polys.rings import ring
 
-    own, *_ = ring([f"x{k}" for k in range(unknowns)], GF(prime), grevlex)
-    given = [own.from_dict({tuple(powers): GF(prime)(part) for powers, part in part_list}) for part_list in polynomials]
+    own, *_unknowns = ring([f"x{k}" for k in range(unknowns)], GF(prime), grevlex)
+    given = [own.from_dict({tuple(powers): GF(prime)(part) for powers, part in parts}) for parts in polynomials]
     return [tuple(polynomial.LM) for polynomial in groebner(given, own)]
 
 
-def _count(
-    prime: int, unknowns: int, polynomials: Sequence[Sequence[tuple[Sequence[int], int]]]
-) -> tuple[int | None, str]:
+def _count(prime: int, unknowns: int, polynomials: Written, even: bool = False) -> tuple[int | None, str]:
     """How many solutions, and by what: linear algebra, else what stands under SymPy's Groebner basis."""
     given = [{tuple(powers): part for powers, part in own} for own in polynomials]
-    if (count := solutions(prime, unknowns, given)) is not None:
+    if (count := solutions(prime, unknowns, given, even=even)) is not None:
         return count, "linear algebra"
-    return staircase(_leading(prime, unknowns, polynomials), unknowns), "sympy"
+    return _paired(staircase(_leading(prime, unknowns, polynomials, even), unknowns), even), "sympy"
 
 
 if __name__ == "__main__":

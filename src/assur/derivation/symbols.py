@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy
@@ -30,6 +30,12 @@ def circle_of(name: str) -> Circle:
 def abs_of(symbol: sympy.Expr) -> sympy.Symbol:
     """The symbol of a symbol or of its negative."""
     return next(iter(symbol.free_symbols))
+
+
+@lru_cache(maxsize=1024)
+def _literal(text: Any) -> sympy.Expr:
+    """A number of a file; a root where its digits are those of one, before a limb is turned: so axes stay units."""
+    return sympy.nsimplify(sympy.Rational(text))
 
 
 def _exact(part: Any) -> sympy.Expr:
@@ -70,7 +76,7 @@ class GivenSymbols:
     @cached_property
     def stated(self) -> dict[sympy.Symbol, sympy.Expr]:
         """Symbols of dimensions that are formulas of others in the file, and these."""
-        record, reading = self.record, NumberReading(self.parameters, sympy, sympy.Rational)
+        record, reading = self.record, NumberReading(self.parameters, sympy, _literal)
         entries = tomllib.loads(record.description.text)["parameters"] if record.description else {}
         return {
             self.parameters[name]: reading.value(parse(entry["value"]))
@@ -81,7 +87,7 @@ class GivenSymbols:
     @cached_property
     def geometry(self) -> Geometry:
         """Points, axes and turns of all joints."""
-        reading = NumberReading(self.parameters, sympy, sympy.Rational)
+        reading = NumberReading(self.parameters, sympy, _literal)
         return written_geometry(self.record, reading).mapped(_exact)
 
     @cached_property

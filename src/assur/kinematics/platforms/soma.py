@@ -21,7 +21,7 @@ from assur.joint_graph.frames import Frame
 from assur.numerics.rotations import cross, from_quaternion, to_quaternion
 
 FloatArray = NDArray[np.float64]
-Array = TypeVar("Array", FloatArray, NDArray[np.complex128])
+Array = TypeVar("Array", FloatArray, NDArray[np.complex128], NDArray[np.object_])
 
 SIZE = 8
 PAIRS = np.array([*combinations_with_replacement(range(SIZE), 2)])

@@ -175,7 +175,10 @@ class DerivationProof:
 
 @dataclass(frozen=True)
 class ResistingSet:
-    """Links that are not solved for, and the unknowns of each, after the sets that are."""
+    """Links that are not solved for, and the unknowns of each, after the sets that are.
+
+    Those of a platform that turns in space are its soma coordinates: a quaternion e, and its product g with the place.
+    """
 
     links: tuple[str, ...]
     unknowns: tuple[tuple[str, ...], ...]
@@ -186,6 +189,7 @@ class CountedSolutions:
     """How many solutions the loop equations have over complex numbers, real ones among them: probable, not proved.
 
     Dimensions and inputs are drawn by `seeds`; `program` counted modulo `primes`. `why` says why nothing is counted.
+    `of`: of a platform that turns in space poses are counted, in each of which limbs may stand in several ways.
     """
 
     solutions: int | None
@@ -193,6 +197,7 @@ class CountedSolutions:
     primes: tuple[int, ...]
     seeds: tuple[int, ...]
     program: str
+    of: Literal["poses", "solutions"] = "solutions"
 
 
 @dataclass(frozen=True)
