@@ -52,7 +52,7 @@ from assur.results.answers.derivation import (
 from assur.results.files import write_whole
 
 NAMES: dict[str, Problem] = {"direct": "direct", "inverse": "inverse"}
-FEW_SECONDS = 10.0
+FEW_SECONDS = 30.0
 """For a count that nobody asked for."""
 
 

@@ -172,7 +172,8 @@ def _run(words: Sequence[str], seconds: float, text: str = "") -> subprocess.Com
     if limited:
         words = ["sh", "-c", f'ulimit -t {math.ceil(seconds)}; exec "$@"', "sh", *words]
     wait = PATIENCE * seconds if limited else seconds
-    run = subprocess.run(words, input=text, timeout=wait, check=False, capture_output=True, text=True)
+    alone = os.environ | {"OPENBLAS_NUM_THREADS": "1"}  # threads that wait for each other take time of the processor
+    run = subprocess.run(words, input=text, timeout=wait, check=False, capture_output=True, text=True, env=alone)
     if limited and -run.returncode in (signal.SIGXCPU, signal.SIGKILL):  # which the limit sends
         raise subprocess.TimeoutExpired(words, seconds)
     return run

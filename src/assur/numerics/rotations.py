@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
-Vectors = TypeVar("Vectors", FloatArray, NDArray[np.complex128])
+Vectors = TypeVar("Vectors", FloatArray, NDArray[np.complex128], NDArray[np.object_])
 SMALL = 1e-2
 """Rotation vectors below this, in rad, have their left Jacobian by a series, where its closed expression cancels."""
 SHORT = 1e-3
