@@ -21,7 +21,7 @@ from assur.kinematics.contract.admission import admitted_record, check_closed_fo
 from assur.machine.mechanics import Mechanics
 from assur.model import registry
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, is_angle
+from assur.model.pose import kind_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -203,14 +203,11 @@ class Mechanism(Mechanics):
     def _table(self) -> tuple[tuple[str, ...], list[tuple[object, ...]]]:
         """Columns and rows of what is given and asked of it."""
         units = {"length": self.unit, "angle": self.angle}
-        kinds = {
-            name: "length" if name in LENGTHS else "angle" if is_angle(name) else "" for name in self.platform.pose
-        }
         driven = {item.name: item.coordinate for item in self.inputs}
         rows: list[tuple[object, ...]] = [
             ("input", name, "", units[at.kind], f"{at.kind} of joint {at.joint}") for name, at in driven.items()
         ]
-        rows += [("pose", name, "", units.get(kind, ""), "") for name, kind in kinds.items()]
+        rows += [("pose", name, "", units.get(kind_of(name), ""), "") for name in self.platform.pose]
         rows += [
             ("dimension", name, f"{item.value:g}", "" if item.unit == "1" else item.unit, item.meaning)
             for name, item in self.parameters.items()

@@ -94,6 +94,26 @@ def test_a_notebook_shows_solutions_as_they_stand(fivebar):
         assert "<img" not in found._repr_html_()
 
 
+def test_one_solution_has_the_units_of_its_set_in_its_table(fivebar):
+    found = fivebar.inverse([0.0, 200.0])
+    table = [line.split() for line in str(found[0]).splitlines()[2:]]
+    printed = {name: (value, unit) for _, name, value, unit in table}
+    for name, number in found.rows()[0].items():
+        if name in printed:
+            assert printed[name] == (f"{number:.6g}", "deg" if name.startswith("theta") else "mm")
+    assert float(printed["A1"][0]) == pytest.approx(np.degrees(found[0].joints["A1"]), rel=1e-5)
+    assert {"x", "y", "theta1", "A1", "P"} <= set(printed)
+    assert found[0]._repr_html_().count("data:image/png;base64,iVBOR") == 1
+
+
+@pytest.mark.parametrize(
+    ("asked", "pictures"), [({}, 1), ({"box": {"x": (5e3, 6e3)}}, 1), ({"held": {"x": 20.0}}, 0)], ids=str
+)
+def test_a_notebook_shows_a_workspace_of_two_coordinates_or_more(fivebar, asked, pictures):
+    shown = fivebar.workspace(resolution=8, **asked)._repr_html_()
+    assert shown.count("data:image/png;base64,iVBOR") == pictures
+
+
 def test_a_notebook_shows_a_topology_with_its_graph():
     shown = assur.topology("fivebar")._repr_html_()
     assert sorted(row[0].split()[0] for row in cells(shown)) >= ["freedoms", "coupling"] or len(cells(shown)) > 5

@@ -39,7 +39,8 @@ def no_workspace(context: Context) -> str:
         free = free_coordinates(context)
     except UsageError as error:
         return error.message
-    missing = [name for name in free if name not in context.record.box]
+    known = context.given_workspace.box.names if context.given_workspace else context.record.box
+    missing = [name for name in free if name not in known]
     if missing:
         return f"the mechanism's file gives no interval for {', '.join(missing)}"
     return "" if len(free) in (2, 3) else "a workspace is drawn in two or three coordinates"

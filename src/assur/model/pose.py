@@ -19,6 +19,15 @@ def is_angle(name: str) -> bool:
     return name in ANGLES
 
 
+def kind_of(name: str) -> str:
+    """What a coordinate is: "length", "angle", or "" of a number.
+
+    >>> kind_of("x"), kind_of("phi"), kind_of("qw")
+    ('length', 'angle', '')
+    """
+    return "length" if name in LENGTHS else "angle" if is_angle(name) else ""
+
+
 def has_quaternion(pose: Pose) -> bool:
     """Whether a pose says its orientation by a unit quaternion."""
     return QUATERNION[0] in pose

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -53,7 +54,7 @@ class Workspace(Tabulated):
     """The workspace of one working mode.
 
     Attributes:
-        mechanism, mode, box: what it is the workspace of.
+        record, mode, box: what it is the workspace of.
         slice: which coordinates vary and at what the others are held.
         unit: of `volume`: "mm^3", or "mm^2 rad" where one of three coordinates is an angle.
         volume: volume (area in a plane) of the region inside the box.
@@ -68,7 +69,7 @@ class Workspace(Tabulated):
         how: "closed form", or from where the mode was followed: "followed from home".
     """
 
-    mechanism: str
+    record: MechanismRecord = field(repr=False)
     mode: str
     box: Box
     slice: Slice
@@ -86,6 +87,18 @@ class Workspace(Tabulated):
     coarser: Reach = field(repr=False)
     strokes: Mapping[str, Stroke | None] | None = None
     how: str = CLOSED_FORM
+
+    @property
+    def mechanism(self) -> str:
+        """The mechanism's name."""
+        return self.record.name
+
+    def _picture(self) -> Any:
+        """Its figure, of two or three coordinates."""
+        if len(self.box.names) == 1:
+            return None
+        context = import_module("assur.figures.context").Context(self.record, self)
+        return import_module("assur.figures.catalogue").draw(self.record, "workspace", context)
 
     def _title(self) -> str:
         return f"workspace of {self.mechanism}, mode {self.mode}, by {self.how}"
@@ -276,7 +289,7 @@ def workspace(
     values = _default_sections(record, domain) if sections is None else sections
     vertices, faces = region.mesh()
     found = Workspace(
-        mechanism=record.name,
+        record=record,
         mode=mode,
         box=domain,
         slice=poses,

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.answers.excess import Excess
 from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import kind_of
 from assur.results.answers.position import OpenLoop
 from assur.results.notebook import Entries, Tabulated
 
@@ -32,9 +37,10 @@ class Failure:
 
 @dataclass(frozen=True, eq=False)
 class Solution(Tabulated):
-    """One solution of the direct or the inverse problem.
+    """One solution of the direct or the inverse problem; printed it is a table in the file's units.
 
     Attributes:
+        record: the mechanism.
         pose, inputs: (m,) and (n,), lengths and rad; redundant inputs follow those that determine the mechanism.
         mode: the signs that name it among the solutions of its problem; `working_mode` and
             `assembly_mode` give both names of the configuration.
@@ -45,18 +51,18 @@ class Solution(Tabulated):
         within_limits: whether it keeps every stroke, joint limit and cone of the file; None where none is stated.
         excesses: the limits that it does not keep, and by how much.
         open_loop: of a solution that is `not_closed`, the loop that stays open most.
-        coordinates, drives: names of the pose and of the inputs.
 
     >>> import assur
     >>> print(assur.load("fivebar").inverse([0.0, 200.0], "-+")[0])  # doctest: +ELLIPSIS
-    solution -+: regular, gap ...; lengths and rad
-    what   name    value
-    pose   x       0
-    pose   y       200
-    input  theta1  2.38535
+    solution -+ of fivebar: regular, gap ...
+    what   name    value     unit
+    pose   x       0         mm
+    pose   y       200       mm
+    input  theta1  136.67    deg
     ...
     """
 
+    record: MechanismRecord = field(repr=False)
     pose: FloatArray
     inputs: FloatArray
     mode: str
@@ -70,16 +76,42 @@ class Solution(Tabulated):
     within_limits: bool | None = None
     excesses: tuple[Excess, ...] = ()
     open_loop: OpenLoop | None = None
-    coordinates: tuple[str, ...] = ()
-    drives: tuple[str, ...] = ()
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the pose's coordinates."""
+        return self.record.platform.pose
+
+    @property
+    def drives(self) -> tuple[str, ...]:
+        """Names of the inputs."""
+        return tuple(item.name for item in self.record.drives)
 
     def _title(self) -> str:
-        return f"solution {self.mode}: {self.status.name}, gap {self.residual:.1e}; lengths and rad"
+        return f"solution {self.mode} of {self.record.name}: {self.status.name}, gap {self.residual:.1e}"
 
     def _entries(self) -> Entries:
-        blocks = {
-            "pose": zip(self.coordinates, self.pose.tolist(), strict=True),
-            "input": zip(self.drives, self.inputs.tolist(), strict=True),
-            "joint": self.joints.items(),
-        }
-        return [{"what": what, "name": name, "value": value} for what, own in blocks.items() for name, value in own]
+        record = self.record
+        kinds = [kind_of(name) for name in self.coordinates]
+        drives = [item.coordinate.kind for item in record.drives]
+        joints = [item.kind for item in record.coordinates]
+        blocks = [
+            ("pose", self.coordinates, self.pose.tolist(), kinds),
+            ("input", self.drives, self.inputs.tolist(), drives),
+            ("joint", self.joints, self.joints.values(), joints),
+        ]
+        units = {"length": record.unit, "angle": record.angle}
+        return [
+            {
+                "what": what,
+                "name": name,
+                "value": float(angle_at_border(record, value)) if kind == "angle" else value,
+                "unit": units.get(kind, ""),
+            }
+            for what, *columns in blocks
+            for name, value, kind in zip(*columns, strict=True)
+        ]
+
+    def _picture(self) -> Any:
+        """The mechanism as it stands in this solution."""
+        return import_module("assur.figures.solutions").pictured(self.record, (self,), numbered=False)

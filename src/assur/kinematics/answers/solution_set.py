@@ -244,6 +244,7 @@ class SolutionSet(Tabulated):
             direct, status = self.problem == "direct", Status(int(self.status[k]))
             exceeded = excesses(self.record, self.problem, self.given, self.joints[k])
             yield Solution(
+                record=self.record,
                 pose=self.poses[k],
                 inputs=self._drives(int(k)),
                 mode=mode,
@@ -257,8 +258,6 @@ class SolutionSet(Tabulated):
                 within_limits=not exceeded if limits_stated(self.record) else None,
                 excesses=exceeded,
                 open_loop=open_loop(self.record, self.joints[k]) if status == Status.not_closed else None,
-                coordinates=self.record.platform.pose,
-                drives=tuple(item.name for item in self.record.drives),
             )
 
     def __len__(self) -> int:

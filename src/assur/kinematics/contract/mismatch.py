@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, is_angle
+from assur.model.pose import kind_of
 
 FloatArray = NDArray[np.float64]
 Part = Literal[
@@ -73,10 +73,7 @@ def place_text(record: MechanismRecord, problem: Problem, given: FloatArray) -> 
     if problem == "direct":
         names = [(item.name, item.coordinate.kind) for item in record.inputs]
     else:
-        kinds = {
-            name: "length" if name in LENGTHS else "angle" if is_angle(name) else "" for name in record.platform.pose
-        }
-        names = list(kinds.items())
+        names = [(name, kind_of(name)) for name in record.platform.pose]
     told = [
         f"{name} = {quantity_text(record, float(value), kind)}"
         for (name, kind), value in zip(names, given, strict=True)
