@@ -8,6 +8,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from assur.errors import UsageError
+from assur.figures.aspect_parts import traced
 from assur.figures.aspects import caption, drawn, no_aspects, shown
 from assur.figures.context import Context
 from assur.figures.singular import symbol_of
@@ -34,27 +35,37 @@ def enclosed(path):
     return float(sum(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) for x, y in parts) / 2.0)
 
 
-def test_each_aspect_is_drawn_with_the_area_of_its_boxes():
+def test_each_aspect_is_drawn_to_traced_lines_between_what_is_proved_and_what_may_be():
     found, drawing = figure("zeng2019", finest=4.0)
     for item, data in zip(found.aspects, drawing.data["aspects"], strict=True):
         assert data["label"] == item.label
         assert area(data["rectangles"][0]) * 500.0 == pytest.approx(item.volume[0], rel=1e-9)
     axes = drawing.figure.axes[0]
-    drawn_areas = [part for part in axes.patches if isinstance(part, PathPatch)]
-    assert len(drawn_areas) == 1 + len(found.aspects)
-    assert len({part.get_facecolor() for part in drawn_areas}) == 1 + len(found.aspects)
-    for part, data in zip(drawn_areas[1:], drawing.data["aspects"], strict=True):
-        assert enclosed(part.get_path()) == pytest.approx(area(data["rectangles"][0]), rel=1e-6)
-        assert len(part.get_path().vertices) < 4 * len(data["rectangles"][0])  # boxes have no lines of their own
+    whole, *parts = [part for part in axes.patches if isinstance(part, PathPatch)]
+    assert len(parts) == len(found.aspects) == len({part.get_facecolor() for part in parts})
+    for part, item, data in zip(parts, found.aspects, drawing.data["aspects"], strict=True):
+        assert area(data["rectangles"][0]) < enclosed(part.get_path()) < item.volume[1] / 500.0
+    assert sum(enclosed(part.get_path()) for part in parts) == pytest.approx(enclosed(whole.get_path()), rel=1e-4)
     assert [text.get_text().replace(" ", "").replace("−", "-") for text in axes.texts] == [
         item.label for item in found.aspects
     ]
     assert axes.get_xlim() == pytest.approx((-110.0, 90.0))
-    # the border that is traced lies between what is proved and what may be
     lines = Path.make_compound_path(*(Path(line, closed=True) for line in axes.collections[0].get_segments()))
     proved = sum(area(data["rectangles"][0]) for data in drawing.data["aspects"])
     assert proved < enclosed(lines) < proved + area(drawing.data["undecided"][0])
-    assert all(part.get_clip_path() is not None for part in drawn_areas)
+    assert "undecided" not in [text.get_text() for text in drawing.figure.legends[0].get_texts()]
+
+
+@pytest.mark.deep
+def test_a_part_of_other_sign_in_which_nothing_is_proved_is_grey():
+    """Boxes of 9 mm find no third aspect of the five-bar in the box of 600 mm, those of 2 mm do: where it was grey."""
+    record, box = load_record("fivebar"), {"x": (-300, 300), "y": (-300, 300)}
+    coarse, fine = (traced(Context(record), aspects(record, "-+", box, finest=size), None) for size in (9.0, 2.0))
+    assert [part.aspects for part in coarse.parts] == [(0,), (1,)]
+    assert [part.aspects for part in fine.parts] == [(0,), (1,), (2,)]
+    assert coarse.open
+    assert not fine.open
+    assert coarse.area - sum(part.area for part in coarse.parts) == pytest.approx(fine.parts[2].area, rel=1e-6)
 
 
 def test_space_is_cut_and_each_cut_shows_what_lies_in_it():
@@ -80,7 +91,7 @@ def test_the_caption_names_the_signs():
     text = caption(Context(record), aspects(record, finest=20.0))
     (factor,) = [item for item in record.closed_form.factor_list if item.name == "sin_rods"]
     assert f"named by the signs of {symbol_of(factor)}." in text
-    assert "is undecided and lies in the grey" in text
+    assert "is undecided and lies along the lines" in text
 
 
 def test_the_caption_says_how_much_of_the_workspace_is_proved_and_how_much_is_not():

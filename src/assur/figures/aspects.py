@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from manifold3d import CrossSection, FillRule
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from assur.errors import UsageError
+from assur.figures.aspect_parts import TracedPlane, listed, rectangles, traced, united
 from assur.figures.context import Context
 from assur.figures.contours import filled
 from assur.figures.coordinates import dress, symbol, value_words
@@ -32,12 +32,6 @@ from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.domain import Box
-from assur.workspace.fields import closed_form_fields
-from assur.workspace.grid import grid_over
-from assur.workspace.projections import projection
-from assur.workspace.reach import reach
-from assur.workspace.slices import Slice
 
 FloatArray = NDArray[np.float64]
 
@@ -46,9 +40,6 @@ CUTS = 4
 
 HATCHES = ("", "////", "\\\\\\\\", "....", "xxxx")
 """Beyond the colours aspects are told apart by these, and always by their labels."""
-
-TRACED = 96
-"""Cells along each coordinate over which the border of the workspace is traced, beside what is proved."""
 
 NAMED = 10
 """Aspects in the legend, the largest first."""
@@ -92,11 +83,12 @@ def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) ->
     width = LEFT + columns * wide + (columns - 1) * (GAP + LEFT) + 4.0
     height = TOP + rows * (tall + below)
     figure = new_figure(width, height)
-    for k, value in enumerate(cuts):
+    planes = [traced(context, aspects, value) for value in cuts]
+    for k, (value, plane) in enumerate(zip(cuts, planes, strict=True)):
         start = LEFT + (k % columns) * (wide + GAP + LEFT)
         low = (rows - 1 - k // columns) * (tall + below) + below
         axes = figure.add_axes((start / width, low / height, wide / width, tall / height))
-        _panel(axes, aspects, value, PATCH * whole, traced(context, aspects, value))
+        _panel(axes, aspects, value, PATCH * whole, plane)
         if path is not None and value is None:
             _way(axes, path)
         dress(context, axes, aspects.box, (across, upward))
@@ -104,7 +96,7 @@ def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) ->
             title = f"({chr(97 + k)}) {symbol(aspects.names[2])} = {value_words(context, aspects.names[2], value)}"
             figure.text((start + wide / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
     signs = f"signs of {_factors(context, aspects)}" if aspects.naming else None
-    legend_above(figure, _legend(aspects, path if cuts == [None] else None), title=signs, title_fontsize=SMALL)
+    legend_above(figure, _legend(aspects, planes, path if cuts == [None] else None), title=signs, title_fontsize=SMALL)
     return Drawing(figure, _data(aspects, cuts, path))
 
 
@@ -129,8 +121,8 @@ def _parts(aspects: Aspects) -> str:
     open_ = shown(100 * aspects.undecided_share)
     least = f"{100 - float(open_):.4g}"
     return (
-        f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"
-        f" the rest of it, at most {open_} %, is undecided and lies in the grey. The line is its border, traced."
+        f"Lines are traced: the border, and inside it where a factor is zero. At least {size} or {least} % of the"
+        f" workspace are proved; the rest, at most {open_} %, is undecided and lies along the lines or in the grey."
     )
 
 
@@ -184,63 +176,39 @@ def _aspect(aspects: Aspects, across: str, upward: str) -> float:
     return float(np.clip(spans[1] / spans[0], 0.3, 1.6)) if is_angle(across) == is_angle(upward) else 1.0
 
 
-def traced(context: Context, aspects: Aspects, value: float | None) -> tuple[FloatArray, ...]:
-    """The border of the workspace in a plane or a cut, polygons (n, 2) in the order of the first two coordinates."""
-    plane, box = aspects.names[:2], aspects.box
-    held = {name: sum(box.intervals[box.axis(name)]) / 2 for name in aspects.slice.free if name not in plane}
-    if value is not None:
-        held[aspects.names[2]] = value
-    poses = Slice(aspects.slice.pose, plane, {**aspects.slice.held, **held})
-    margins, _ = closed_form_fields(context.record, aspects.mode, aspects.strokes, poses)
-    low, high = (tuple(ends[box.axis(name)] for name in plane) for ends in (box.low, box.high))
-    return projection(reach(margins, {}, grid_over(Box(plane, low, high), TRACED)), plane).polygons
-
-
-def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float, border: Sequence[FloatArray]) -> None:
-    """One cut inside a border, with the labels of those aspects that have at least so large an area there."""
-    whole = outline(border)
-    for rectangles, style in [
-        (_rectangles(aspects.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
-        *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(aspects.aspects)),
-    ]:
-        area = outline(_united(rectangles))
-        if area is not None:
-            patch = axes.add_patch(PathPatch(area, linewidth=0.15, **style))
-            if whole is not None:
-                patch.set_clip_path(whole, axes.transData)
-    axes.add_collection(
-        LineCollection([np.concatenate([line, line[:1]]) for line in border], colors=INK, linewidths=0.8)
-    )
+def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float, plane: TracedPlane) -> None:
+    """One plane, with the labels of those aspects that have at least so large an area there."""
+    _fill(axes, plane.border, {"facecolor": PALE, "edgecolor": "none"})
+    for part in plane.parts:
+        first, *others = part.aspects
+        _fill(axes, part.polygons, {**_style(first), "linewidth": 0.5})
+        for other in others:  # not told from the first by its border
+            _fill(axes, united(rectangles(aspects.aspects[other].boxes, value)), {**_style(other), "linewidth": 0.15})
+    closed = [np.concatenate([line, line[:1]]) for line in plane.border]
+    axes.add_collection(LineCollection(closed, colors=INK, linewidths=0.8))
     for item in aspects.aspects:
-        _letter(axes, item, _rectangles(item.boxes, value), least)
+        _letter(axes, item, rectangles(item.boxes, value), least)
 
 
-def _united(rectangles: FloatArray) -> list[FloatArray]:
-    """Polygons (k, 2) round rectangles (n, 4, 2) that touch: boxes of a proof are in the data alone."""
-    return [np.asarray(polygon) for polygon in CrossSection(list(rectangles), FillRule.NonZero).to_polygons()]
+def _fill(axes: Axes, polygons: Sequence[FloatArray], style: dict[str, Any]) -> None:
+    area = outline(polygons)
+    if area is not None:
+        axes.add_patch(PathPatch(area, **style))
 
 
 def _style(k: int) -> dict[str, Any]:
     colour = SERIES[k % len(SERIES)]
     hatch = HATCHES[min(k // len(SERIES), len(HATCHES) - 1)]
-    return {"facecolor": colour, "edgecolor": PAPER if hatch else colour, "hatch": hatch or None, "alpha": 0.75}
+    return {"facecolor": colour, "edgecolor": PAPER if hatch else INK, "hatch": hatch or None, "alpha": 0.75}
 
 
-def _rectangles(boxes: Boxes, value: float | None) -> FloatArray:
-    """Corners (n, 4, 2) of the boxes in the plane, of boxes in space of those that the cut meets."""
-    if value is not None:
-        boxes = boxes[(boxes.low[2] <= value) & (value < boxes.high[2])]
-    (left, low), (right, high) = boxes.low[:2], boxes.high[:2]
-    return np.stack([np.stack(pair, axis=-1) for pair in ((left, low), (right, low), (right, high), (left, high))], 1)
-
-
-def _letter(axes: Axes, aspect: Aspect, rectangles: FloatArray, least: float) -> None:
+def _letter(axes: Axes, aspect: Aspect, corners: FloatArray, least: float) -> None:
     """The label where the aspect has much room about it, of such places in that nearest to its middle."""
-    areas = np.prod(rectangles[:, 2] - rectangles[:, 0], axis=1)
-    if not len(rectangles) or np.sum(areas) < least:
+    areas = np.prod(corners[:, 2] - corners[:, 0], axis=1)
+    if not len(corners) or np.sum(areas) < least:
         return
-    middles, size = rectangles.mean(axis=1), np.ptp(rectangles.reshape(-1, 2), axis=0)
-    edge = np.concatenate([filled(polygon) for polygon in _united(rectangles)])
+    middles, size = corners.mean(axis=1), np.ptp(corners.reshape(-1, 2), axis=0)
+    edge = np.concatenate([filled(polygon) for polygon in united(corners)])
     room = cKDTree(edge / size).query(middles / size)[0]
     away = np.sum(((middles - np.average(middles, axis=0, weights=areas)) / size) ** 2, axis=1)
     at = middles[np.argmin(np.where(room >= LARGE * np.max(room), away, np.inf))]
@@ -275,31 +243,32 @@ def _way(axes: Axes, path: AspectPath) -> None:
     axes.plot(*line[[0, -1]].T, "o", color=INK, markersize=3.5, zorder=6)
 
 
-def _legend(aspects: Aspects, path: AspectPath | None) -> list[Any]:
-    handles: list[Any] = [
-        Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(aspects.aspects[:NAMED])
-    ]
-    if len(aspects) > NAMED:
-        handles.append(Patch(facecolor="none", label=f"and {len(aspects) - NAMED} smaller ones"))
-    handles.append(Patch(facecolor=PALE, label="undecided"))
+def _legend(aspects: Aspects, planes: Sequence[TracedPlane], path: AspectPath | None) -> list[Any]:
+    """Handles for what is seen in the planes."""
+    seen = listed(planes)
+    handles: list[Any] = [Patch(label=_words(aspects.aspects[k].label), **_style(k)) for k in seen[:NAMED]]
+    if len(seen) > NAMED:
+        handles.append(Patch(facecolor="none", label=f"and {len(seen) - NAMED} smaller ones"))
+    if any(plane.open for plane in planes):
+        handles.append(Patch(facecolor=PALE, label="undecided"))
     if path is not None:
         handles.append(Line2D([], [], color=INK, marker="o", markersize=3.5, label="path"))
     return handles
 
 
 def _data(aspects: Aspects, cuts: list[float | None], path: AspectPath | None) -> dict[str, Any]:
-    def listed(boxes: Boxes) -> list[Any]:
-        return [_rectangles(boxes, value) for value in cuts]
+    def in_cuts(boxes: Boxes) -> list[Any]:
+        return [rectangles(boxes, value) for value in cuts]
 
     return {
         "mode": aspects.mode,
         "plane": list(aspects.names[:2]),
         "cuts": cuts,
         "aspects": [
-            {"label": item.label, "volume": list(item.volume), "rectangles": listed(item.boxes)}
+            {"label": item.label, "volume": list(item.volume), "rectangles": in_cuts(item.boxes)}
             for item in aspects.aspects
         ],
-        "undecided": listed(aspects.search.undecided),
+        "undecided": in_cuts(aspects.search.undecided),
         "path": None if path is None else path.points,
     }
 

@@ -7,7 +7,7 @@ pose anyway. The fields of a mode are columns of one reading: several at the sam
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar
@@ -50,8 +50,11 @@ def closed_form_fields(
     mode: str,
     strokes: Mapping[str, Stroke | None] | None = None,
     slice_: Slice | None = None,
+    kinds: Sequence[str] = ("parallel",),
 ) -> tuple[dict[str, Field], dict[str, Field]]:
-    """Every margin and every factor of det Jp ("parallel") of a working mode over the free coordinates of a slice.
+    """Every margin and every factor of some kinds of a working mode over the free coordinates of a slice.
+
+    Those of det Jp are "parallel", those of det Jq "serial".
 
     The margins of strokes and limits are among them. Those at whose zero the formulas merely degenerate forbid no open
     set of poses and are left out. All are columns of the same readings.
@@ -72,7 +75,7 @@ def closed_form_fields(
         item.name: Column(read, partial(_margin, item.name)) for item in form.inverse_margins if item.zero == "merge"
     }
     margins |= {name: Column(read, partial(_bound, bound)) for name, bound in bounds(record, strokes).items()}
-    names = [item.name for item in form.factor_list if item.kind == "parallel"]
+    names = [item.name for item in form.factor_list if item.kind in kinds]
     return margins, {name: Column(read, partial(_factor, name)) for name in names}
 
 

@@ -57,10 +57,13 @@ class Reach:
             return np.empty(0, dtype=np.float32)
         return self.at_nodes["factor", name][self.inside]
 
+    def positive(self, name: str) -> Manifold:
+        """Where a factor is positive, on three axes: it divides the region by its sign."""
+        return _solid(self.factors[name], self.at_nodes["factor", name], self.grid, self.cells)
+
     def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
         """Zero set of a factor inside the region: vertices (n, m), faces (k, 3) or segments (k, 2), area or length."""
-        cutter = _solid(self.factors[name], self.at_nodes["factor", name], self.grid, self.cells)
-        surface = surface_in(self.solid, cutter)
+        surface = surface_in(self.solid, self.positive(name))
         vertices, faces = with_rim(surface, mesh(self.solid), partial(self._at_border, name), self.grid)
         size = area_of(vertices, faces) / self.grid.thickness
         return *in_pose_coordinates(self.grid, vertices, faces), size
