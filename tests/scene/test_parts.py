@@ -1,12 +1,13 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 import assur
 from assur.joints.universal import UNIVERSAL
 from assur.scene.companion import Companion
 from assur.scene.mesh import rgb
-from assur.scene.parts import link_layers, model, parts, placed, unit
+from assur.scene.parts import link_layers, machine, model, parts, placed, unit
 from assur.scene.skeleton import link_point, skeleton
 from assur.scene.yokes import ASIDE, trimmed, yokes
 
@@ -93,3 +94,23 @@ def test_every_part_is_of_a_link_and_every_joint_has_one(every):
     assert {item.link for item in solids} <= set(every.record.links)
     for joint in every.record.joints:
         assert any(item.name.startswith(joint) for item in solids), joint
+
+
+def bars(name, start):
+    found = [item for item in machine(assur.load(name)) if item.link.startswith(start) and item.role == "bar"]
+    return [item.shape for item in found]
+
+
+def test_rods_between_balls_are_broad_but_at_their_ends_and_no_broader_than_the_balls():
+    """Those of a Delta robot, whose balls at the platform are so near to one another that all else is drawn thin."""
+    first, shaft, last = bars("delta_4s", "leg1.rod1")
+    (ball,) = (item.shape for item in machine(assur.load("delta_4s")) if item.name == "leg1.C1 ball")
+    assert first.radius == last.radius < shaft.radius <= ball.radius
+    assert np.array_equal(first.end, shaft.start)
+    assert np.array_equal(shaft.end, last.start)
+    assert np.linalg.norm(last.end - first.start) == pytest.approx(1.244)
+    assert np.linalg.norm(shaft.end - shaft.start) > 0.7 * 1.244
+
+
+def test_rods_between_balls_that_have_room_are_one_bar():
+    assert len(bars("three_p2us", "leg1.rod1")) == 1

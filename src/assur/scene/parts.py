@@ -19,12 +19,13 @@ from assur.scene.companion import Companion
 from assur.scene.companion import companion as companion_of
 from assur.scene.ground import bed, depth, ground, held, upright
 from assur.scene.hull import hull
-from assur.scene.joining import posts, stand, webs
+from assur.scene.joining import posts, stand
 from assur.scene.mesh import Mesh, joined
 from assur.scene.part import DARK, DRIVE, LINKS, PLAIN, STAGE, STEEL, Part
-from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
-from assur.scene.sizes import USUAL, thickness
-from assur.scene.skeleton import JointMark, Rod, Skeleton
+from assur.scene.rods import BALL, LAYERS, broad, broad_rods, rod_parts
+from assur.scene.shapes import Ball, Cuboid, Cylinder, Slab
+from assur.scene.sizes import thickness
+from assur.scene.skeleton import JointMark, Skeleton
 from assur.scene.skeleton import skeleton as skeleton_at
 from assur.scene.stacking import stacked
 from assur.scene.telescopes import telescope
@@ -39,14 +40,6 @@ DEEP = 0.2
 
 MOTOR, LEAST, ROOMY = 4.5, 2.4, 6.0
 """How far a motor reaches beyond the stand of its hinge, room for one, and for a thicker one, in thicknesses."""
-
-BROAD = 2.8
-"""So many times as broad are arms and motors at most, where neighbouring joints elsewhere ask for thin links: they keep
-off the plate of the base."""
-
-LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
-THICK = (1.0, 0.7, 0.7)
-"""Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
 
 
 def unit(skeleton: Skeleton) -> float:
@@ -110,9 +103,10 @@ def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]
     for yoke in forks:
         if yoke.link != skeleton.record.base:
             yield from _yoke(skeleton, yoke, colours.get(yoke.link, PLAIN))
+    breadth = broad_rods(skeleton)
     for rod in skeleton.rods:
         if rod.size > 0:
-            yield from _rod(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN))
+            yield from rod_parts(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN), breadth)
     for plate in skeleton.plates:
         colour = colours.get(plate.link, PLAIN)
         for k, a in enumerate(plate.points):
@@ -123,11 +117,6 @@ def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]
         yield from _joint(skeleton, mark, layers)
     yield from _stage(skeleton, colours.get(skeleton.record.platform.link, STAGE))
     yield from ground(skeleton, companion, forks, unit(skeleton), lambda mark: _reach(mark, layers, True))
-
-
-def _broad(skeleton: Skeleton) -> float:
-    """How many times as broad as a bar an arm or a motor is, which no other joint is near: as usual, if it may be."""
-    return float(np.clip(USUAL * skeleton.size / unit(skeleton), 1.0, BROAD))
 
 
 def _yoke(skeleton: Skeleton, yoke: Yoke, colour: str) -> Iterator[Part]:
@@ -156,47 +145,10 @@ def _chain_colours(skeleton: Skeleton) -> dict[str, str]:
     return {**colours, skeleton.record.platform.link: STAGE}
 
 
-def _rod(skeleton: Skeleton, rod: Rod, layer: int, colour: str) -> Iterator[Part]:
-    """Flat bars normal to the hinges at its ends, or a round rod where it has none across it."""
-    size, name = unit(skeleton), f"bar {' '.join(rod.ends)}"
-    start, end = rod.points
-    normal = _hinge_normal(skeleton, rod)
-    if normal is None:
-        yield Part(name, rod.link, Cylinder(start, end, 0.75 * size), colour)
-        return
-    width = 1.15 * size * (_broad(skeleton) if _is_arm(skeleton, rod) else 1.0)
-    for shift in LAYERS[layer]:
-        aside = shift * size * normal
-        shape = Bar(start + aside, end + aside, normal, width, THICK[layer] * size)
-        yield Part(name, rod.link, shape, colour)
-    if layer:
-        for spacer in webs(skeleton, rod, max(LAYERS[layer]) * size * normal, 0.7 * size):
-            yield Part(f"web {' '.join(rod.ends)}", rod.link, spacer, colour, "web")
-
-
-def _is_arm(skeleton: Skeleton, rod: Rod) -> bool:
-    """Whether a rod begins at a hinge of the base, and what shares no joint with it leaves room for a broad one."""
-    pairs = [{joint.parent, joint.child} for joint in skeleton.record.joints.values()]
-    own = set().union(*(pair for pair in pairs if rod.link in pair))
-    feet = [mark.at for mark in skeleton.marks if mark.grounded and mark.joint.type.turns == 1 and not mark.slides]
-    begins = any(np.min(np.linalg.norm(rod.points - foot, axis=1)) < 1e-9 * skeleton.size for foot in feet)
-    return begins and skeleton.room(rod.points[0], rod.points[1], own) > (1.15 * BROAD + 1.5) * unit(skeleton)
-
-
-def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
-    along = (rod.points[1] - rod.points[0]) / rod.size
-    for mark in skeleton.marks:
-        meets = np.min(np.linalg.norm(rod.points - mark.at, axis=1)) < 1e-9 * skeleton.size
-        of_rod = rod.link in (mark.joint.parent, mark.joint.child)
-        if of_rod and meets and not mark.slides and len(mark.axes) and abs(float(mark.axes[0] @ along)) < 1e-9:
-            return np.asarray(mark.axes[0])
-    return None
-
-
 def _joint(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Iterator[Part]:
     size, joint = unit(skeleton), mark.joint
     if joint.type.ball:
-        yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK, "ball", joint.name)
+        yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, BALL * size), DARK, "ball", joint.name)
         return
     colour = DRIVE if mark.driven else DARK
     if mark.slides:
@@ -233,7 +185,7 @@ def _motor(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Cy
     if room(sense) < LEAST * size:
         return None
     first, last = (mark.at + sense * (near + far * size) * axis for far in (1.0, MOTOR))
-    thick = float(np.clip(skeleton.room(first, last, {mark.joint.child}) / ROOMY, size, _broad(skeleton) * size))
+    thick = float(np.clip(skeleton.room(first, last, {mark.joint.child}) / ROOMY, size, broad(skeleton) * size))
     start = mark.at + sense * near * axis
     return Cylinder(start, start + sense * (MOTOR - 1.0) * thick * axis, 1.6 * thick)
 
