@@ -42,3 +42,12 @@ def test_where_nothing_is_known_nothing_is_shown(outside):
     fine, shown = ridged(mapped(slanted), np.full((12, 12), outside))
     assert shown.shape == (len(fine.ys), len(fine.xs))
     assert not np.any(np.isfinite(shown))
+
+
+def test_a_plane_says_at_what_the_orientation_is_held_as_coordinates_of_the_plane():
+    workspace = SimpleNamespace(
+        box=Box(("x", "y", "z"), (0.0,) * 3, (1.0,) * 3), slice=SimpleNamespace(held={"phi": 0.1})
+    )
+    context = SimpleNamespace(workspace=workspace, record=SimpleNamespace(unit="mm", angle="deg"))
+    own, whole = (plane_through(context, ("x", "z"), held, 3).words for held in ({"y": 2.0}, {"phi": 0.1, "y": 2.0}))
+    assert own == whole == r"XOZ, $\phi$ = 5.7296°, $y$ = 2 mm"

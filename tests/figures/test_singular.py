@@ -1,12 +1,14 @@
 """The geometry that a factor's meaning claims, checked on the joint graph's points of the drawn configuration."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from assur.figures import catalogue as figures
 from assur.figures.meaning import named, typeset
-from assur.figures.singular import symbol_of
+from assur.figures.singular import _value, symbol_of
 from assur.joint_graph.points import point
 from assur.kinematics.closure import closure_error
 from assur.kinematics.position import inverse
@@ -109,3 +111,10 @@ def test_names_in_a_text(context, text, lines, letters):
     points = [name for name in context.skeleton.points if len(name) > 1][:4]
     found = named(text.format(*points), context.skeleton)
     assert (len(found.lines), len(found.letters)) == (lines, letters)
+
+
+def test_the_caption_of_a_configuration_says_a_quaternion_to_four_digits():
+    pose = ("x", "qw")
+    record = SimpleNamespace(unit="mm", angle="deg", platform=SimpleNamespace(pose=pose))
+    context = SimpleNamespace(record=record, skeleton=SimpleNamespace(size=500.0))
+    assert [_value(context, name, 0.123456) for name in pose] == ["0.12 mm", "0.1235"]

@@ -1,11 +1,12 @@
 """One macro for each kind: what each of them shows, whatever made it."""
 
+import re
 from typing import get_args
 
 import numpy as np
 import pytest
 
-from assur.report.render import MACROS, Page, page_html
+from assur.report.render import MACROS, Hyperlinks, Page, page_html
 from assur.results import kinds
 from assur.results.kinds import (
     Facts,
@@ -121,3 +122,10 @@ def test_scalars_that_stand_together_are_one_block():
     page = shown(Scalar("a", 1.0), Scalar("b", None), Facts("f", ()), Scalar("c", 2.0))
     assert page.count('<dl class="scalars">') == 2
     assert '<span class="value">–</span>' in page
+
+
+def test_a_formula_in_a_caption_carries_its_latex():
+    said = str(Hyperlinks({}).captioned(r"signs of $\alpha_{1} < u$ & more"))
+    assert said.count("<math") == said.count('<annotation encoding="application/x-tex">') == 1
+    (latex,) = re.findall(r'application/x-tex">(.*?)</annotation>', said)
+    assert latex.replace(" ", "") == r"\alpha_{1}&lt;u"

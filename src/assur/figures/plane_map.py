@@ -84,9 +84,10 @@ class MappedPlane:
 
     @property
     def words(self) -> str:
-        """E.g. "XOZ, y = 0 mm"."""
+        """E.g. "XOZ, y = 0 mm", and at what the orientation is held where the workspace leaves it out."""
+        held = {**self.context.workspace.slice.held, **self.held}
         return plane_words(*self.names) + "".join(
-            f", {symbol(name)} = {value_words(self.context, name, value)}" for name, value in self.held.items()
+            f", {symbol(name)} = {value_words(self.context, name, value)}" for name, value in held.items()
         )
 
 

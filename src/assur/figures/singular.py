@@ -21,7 +21,7 @@ from assur.figures.style import LETTER, SMALL, TEXT
 from assur.joint_graph.points import quantity
 from assur.model.closed_form import Factor
 from assur.model.formula import parse
-from assur.model.pose import LENGTHS, is_angle
+from assur.model.pose import LENGTHS, is_angle, kind_of
 from assur.results.typeset_text import minus
 from assur.scene.skeleton import skeleton
 from assur.singularity.examples import AGAIN_SAMPLES, SAMPLES, SingularExample
@@ -144,7 +144,7 @@ def _value(context: Context, name: str, value: float) -> str:
     number = shown(context, name, value)
     mixed = name in LENGTHS and not all(other in LENGTHS for other in context.record.platform.pose)
     unit = "°" if degrees else f" {context.record.unit}" if mixed else ""
-    digits = 2 if degrees or context.skeleton.size > 20 else 4
+    digits = 2 if degrees or (kind_of(name) and context.skeleton.size > 20) else 4
     return minus(f"{round(number, digits) + 0.0:.{digits}f}") + unit
 
 

@@ -145,7 +145,7 @@ class Hyperlinks:
         """A caption with its links, what stands between dollar signs as mathematics."""
         parts = re.split(r"\$([^$]+)\$", text)
         shown = [
-            self.cited(part) if place % 2 == 0 else Markup(inline(latex_mathml(part), part))
+            self.cited(part) if place % 2 == 0 else Markup(annotated(inline(latex_mathml(part), part)))
             for place, part in enumerate(parts)
         ]
         return Markup("").join(shown)
