@@ -38,6 +38,18 @@ def test_rounding_is_shown_as_zero_beside_what_is_none():
     assert table_cells([{"gap": 3e-17}])[1] == [["3e-17"]]
 
 
+def test_a_column_of_rounding_alone_is_shown_as_zeros_beside_what_its_numbers_might_be():
+    entries = [{"x": 3e-14, "gap": 3e-14}, {"x": -2e-14, "gap": 2e-14}]
+    assert table_cells(entries, {"x": 250.0})[1] == [["0", "3e-14"], ["0", "2e-14"]]
+
+
+def test_solutions_know_how_large_their_numbers_might_be(fivebar):
+    sizes = fivebar.inverse([0.0, 200.0])._sizes()
+    assert sizes["theta1"] == 180.0
+    assert 50.0 < sizes["x"] == sizes["y"] < 500.0
+    assert "gap" not in sizes
+
+
 def test_solutions_say_the_units_of_their_columns(fivebar):
     assert f"in {fivebar.unit} and {fivebar.angle}:" in str(fivebar.inverse([0.0, 200.0])).splitlines()[0]
 

@@ -61,18 +61,23 @@ SHOWN = 24
 """So many rows are shown; a data frame has all of them."""
 
 ROUNDING = 1e-15
-"""What is less than this share of the largest number of its column is rounding."""
+"""What is less than this share of the largest number of its column, or of what is its size, is rounding."""
 
 
-def cells(entries: Entries) -> tuple[tuple[str, ...], list[list[object]]]:
+def cells(entries: Entries, sizes: Mapping[str, float] | None = None) -> tuple[tuple[str, ...], list[list[object]]]:
     """Columns and rows as they are shown: numbers to six digits, rounding as 0, and how many rows are not shown.
+
+    `sizes` are of columns of which all numbers may be rounding.
 
     >>> cells([{"x": 1 / 3, "mode": "+"}, {"x": 1e-17, "mode": "-"}])
     (('x', 'mode'), [['0.333333', '+'], ['0', '-']])
     """
     columns = tuple(entries[0]) if entries else ()
     numbers = [[cell for row in entries if isinstance(cell := row[name], float)] for name in columns]
-    largest = [max((abs(number) for number in column if math.isfinite(number)), default=0.0) for column in numbers]
+    largest = [
+        max([(sizes or {}).get(name, 0.0), *(abs(number) for number in column if math.isfinite(number))])
+        for name, column in zip(columns, numbers, strict=True)
+    ]
     rows: list[list[object]] = [
         [_shown(cell, ROUNDING * most) for cell, most in zip(row.values(), largest, strict=True)] for row in entries
     ]
@@ -111,15 +116,19 @@ class Tabulated(ABC):
     def _entries(self) -> Entries:
         """Its rows."""
 
+    def _sizes(self) -> Mapping[str, float]:
+        """How large numbers of a column are, where all of them may be rounding."""
+        return {}
+
     def _picture(self) -> Any:
         """A figure of it, or None."""
         return None
 
     def __str__(self) -> str:
-        return text_table(self._title(), *cells(self._entries()))
+        return text_table(self._title(), *cells(self._entries(), self._sizes()))
 
     def _repr_html_(self) -> str:
-        return html_table(self._title(), *cells(self._entries()), pictured(self._picture()))
+        return html_table(self._title(), *cells(self._entries(), self._sizes()), pictured(self._picture()))
 
     def to_dataframe(self) -> Any:
         """The table as a `pandas.DataFrame`, one row for each pose, moment or name.

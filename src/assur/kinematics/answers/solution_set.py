@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from assur.errors import BatchError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
+from assur.kinematics.answers.at_border import angle_at_border, inputs_at_border, pose_at_border
 from assur.kinematics.answers.excess import beyond, excesses, open_loop, within
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure, Solution
@@ -22,6 +23,7 @@ from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import kind_of
 from assur.results.notebook import Entries, Tabulated
 
 if TYPE_CHECKING:
@@ -134,8 +136,6 @@ class SolutionSet(Tabulated):
         >>> [row["mode"] for row in assur.load("fivebar").direct([1.0, 1.0]).rows()]
         ['+', '-']
         """
-        from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
-
         record = self.record
         names = [own.name for own in record.drives]
         return [
@@ -151,6 +151,13 @@ class SolutionSet(Tabulated):
 
     def _entries(self) -> Entries:
         return [] if self.batch_shape else self.rows()
+
+    def _sizes(self) -> Mapping[str, float]:
+        record = self.record
+        kinds = {name: kind_of(name) for name in record.platform.pose}
+        kinds |= {item.name: item.coordinate.kind for item in record.drives}
+        sizes = {"length": characteristic_length(record), "angle": float(angle_at_border(record, np.pi)), "": 1.0}
+        return {name: sizes[kind] for name, kind in kinds.items()}
 
     def _title(self) -> str:
         if self.batch_shape:
