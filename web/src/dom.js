@@ -50,7 +50,7 @@ export function letterOf(name) {
 }
 
 /** Negative numbers, and signs that name a mode, alone or among words. */
-const HYPHENS = /(?<![^\s(=±≈<>^])(?:-(?=[\d.∞])|[+-][+/-]*[+-](?![^\s),.:;]))|^[+-]$/g;
+const HYPHENS = /(?<![^\s(=±≈<>^])(?:-(?=[\d.∞])|[+-][+/-]*[+-](?![^\s),.:;]))|^[+-]+[a-z]?(?:~[a-z]+)?$/g;
 
 /** Text as a person reads it: true minus signs; the hyphens of words, chains and formulas stay. @param {string} text */
 export const minus = (text) => text.replace(HYPHENS, (found) => found.replaceAll("-", "\u2212"));

@@ -31,6 +31,8 @@ test("minus signs are true ones in numbers and modes, hyphens stay in words and 
     ["z = -1.065, not (-.5)", "z = −1.065, not (−.5)"],
     ["++-++", "++−++"],
     ["-", "−"],
+    ["-a", "−a"],
+    ["+-b~turned", "+−b~turned"],
     ["mode +-/-- does not exist", "mode +−/−− does not exist"],
     ["10^-3", "10^−3"],
     ["2P4R-R-R of IRB 360-1/1600 on the -Y side", "2P4R-R-R of IRB 360-1/1600 on the -Y side"],
