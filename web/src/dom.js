@@ -12,7 +12,7 @@ export function el(tag, given = {}, ...children) {
 }
 
 const LETTERS =
-  "alpha α, beta β, gamma γ, delta δ, theta θ, phi φ, varphi φ, psi ψ, rho ρ, lambda λ, mu μ, omega ω, kappa κ, xi ξ, " +
+  "alpha α, beta β, gamma γ, delta δ, epsilon ε, theta θ, phi φ, varphi φ, psi ψ, rho ρ, lambda λ, mu μ, omega ω, kappa κ, xi ξ, " +
   "eta η, sigma σ, tau τ";
 const GREEK = Object.fromEntries(LETTERS.split(", ").map((pair) => pair.split(" ")));
 

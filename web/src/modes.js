@@ -1,6 +1,6 @@
 /** Lists of assembly and working modes: what a click on a ghost does, for the keyboard and for fingers too. */
 
-import { el, minus } from "./dom.js";
+import { el, greek, minus } from "./dom.js";
 import { COLOURS } from "./ghosts.js";
 
 /** A mode's name as a person reads it, and whether it is that of home. */
@@ -12,7 +12,7 @@ export function named({ label, home }) {
 /** The name, what is not as usual, and what its signs mean. @param {string[]} said */
 function told(item, said, gone = false) {
   const unusual = gone ? "not at these inputs" : item.status === "regular" ? "" : item.status;
-  return [unusual ? `${named(item)}: ${unusual}` : named(item), ...said].join("\n");
+  return [unusual ? `${named(item)}: ${unusual}` : named(item), ...said.map(greek)].join("\n");
 }
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */

@@ -20,6 +20,7 @@ test("numbers as a person reads them", () => {
 
 test("names become symbols", () => {
   assert.equal(greek("\\theta_1"), "θ_1");
+  assert.equal(greek("platform (epsilon1) is +"), "platform (ε1) is +");
   assert.equal(greek("input theta2 to and fro").slice(0, 6), "input ");
   assert.equal(indexed("rho2"), "rho_2");
   assert.equal(indexed("v"), "v");
