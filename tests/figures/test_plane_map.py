@@ -4,8 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
 
-from assur.figures.plane_map import plane_through, ridged
+from assur.figures.plane_map import plane_through, ridged, with_bar
 from assur.workspace.domain import Box
 
 
@@ -51,3 +53,14 @@ def test_a_plane_says_at_what_the_orientation_is_held_as_coordinates_of_the_plan
     context = SimpleNamespace(workspace=workspace, record=SimpleNamespace(unit="mm", angle="deg"))
     own, whole = (plane_through(context, ("x", "z"), held, 3).words for held in ({"y": 2.0}, {"phi": 0.1, "y": 2.0}))
     assert own == whole == r"XOZ, $\phi$ = 5.7296°, $y$ = 2 mm"
+
+
+@pytest.mark.parametrize(("ends", "wanted"), [((1 / 1.2, 1.0), [1.0]), ((0.5, 4.2), [1.0, 2.0])])
+def test_a_bar_by_decades_has_a_number_at_its_end_where_that_is_round(ends, wanted):
+    """What is 1 everywhere is seen to be 1."""
+    axes, bar = Figure().subplots(1, 2)
+    image = axes.pcolormesh(np.ones((3, 3)), norm=LogNorm(*ends))
+    with_bar((axes, bar), image, "")
+    ticks = bar.get_yticks()
+    assert set(wanted) <= set(ticks.tolist())
+    assert max(ticks) <= ends[1]

@@ -290,7 +290,8 @@ def with_bar(
     colours = image.figure.colorbar(image, cax=bar, extend=extend)
     scale, rounds = image.norm, [0.0, *levels, *(end for end in (1.0,) if end == image.norm.vmax)]
     if isinstance(scale, LogNorm):
-        rounds = round_levels(scale, 6)
+        top = float(scale.vmax or 1.0)
+        rounds = [*round_levels(scale, 6), *(end for end in (top,) if float(f"{end:.1g}") == end)]
     if isinstance(scale, Normalize) and len(rounds) > 1:
         height = bar.get_window_extent().height / image.figure.dpi * 72.0
         ticks = apart(rounds, scale, height / (1.3 * SMALL))
