@@ -64,3 +64,17 @@ def test_a_bar_by_decades_has_a_number_at_its_end_where_that_is_round(ends, want
     ticks = bar.get_yticks()
     assert set(wanted) <= set(ticks.tolist())
     assert max(ticks) <= ends[1]
+
+
+def test_a_factor_towards_which_values_do_not_grow_is_no_ridge():
+    """As of the ratio of two stiffnesses, which both vanish with one factor, but with different powers of another."""
+    plane = mapped(slanted)
+    plane.context.workspace.region.factors["other"] = lambda at: at[1] - 0.4
+    x, y = np.moveaxis(plane.points, -1, 0)
+    fine, shown = ridged(plane, (2.0 + y) / np.abs(slanted(x, y)))
+    x, y = np.moveaxis(fine.points, -1, 0)
+    exact = (2.0 + y) / np.abs(slanted(x, y))
+    other = (np.abs(y - 0.4) < 0.1) & (exact < 10.0)  # a ridge there would be thousands high
+    np.testing.assert_allclose(shown[other], exact[other], rtol=0.2)
+    _, even = ridged(plane, 2.0 + plane.points[..., 1])
+    np.testing.assert_allclose(even, 2.0 + y, rtol=0.05)

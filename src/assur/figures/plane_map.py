@@ -15,13 +15,13 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
-from scipy.interpolate import RegularGridInterpolator
 
 from assur.figures.context import Context
 from assur.figures.contours import continued, draw_contours, round_levels
 from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
 from assur.figures.page import HIGHEST, side_by_side
 from assur.figures.plots import outline
+from assur.figures.ridges import followed
 from assur.figures.style import GREY, INK, MILLIMETRE, SMALL, TEXT, new_figure
 from assur.model.pose import LENGTHS, is_angle
 
@@ -92,10 +92,7 @@ class MappedPlane:
 
 
 def ridged(plane: MappedPlane, values: FloatArray) -> tuple[MappedPlane, FloatArray]:
-    """A finer plane, and on it values (b, a) that grow without bound towards the zeros of the parallel factors.
-
-    From node to node their reciprocals are followed, with the sign of the factors: these pass through zero between two
-    nodes, where the values themselves would have a bead beside each node that is near. Small values go by decades.
+    """A finer plane, and on it values (b, a) that grow without bound towards zeros of parallel factors, as `followed`.
 
     >>> import assur
     >>> from assur.workspace.region import workspace
@@ -106,19 +103,10 @@ def ridged(plane: MappedPlane, values: FloatArray) -> tuple[MappedPlane, FloatAr
     (True, True)
     """
     finer = plane_through(plane.context, plane.names, plane.held, FINER * (len(plane.xs) - 1) + 1)
-    known = np.isfinite(values) & (values > 0)
-    if not np.any(known):
-        return finer, np.full((len(finer.ys), len(finer.xs)), np.nan)
-    middle = float(np.median(values[known]))
-    shares = np.where(known, values, np.nan) / middle
-    small = 1.0 - np.log(np.minimum(shares, 1.0))
+    nodes = tuple(plane.points.reshape(-1, plane.points.shape[-1]).T)
     factors = plane.context.workspace.region.factors.values()
-    nodes, shape = tuple(plane.points.reshape(-1, plane.points.shape[-1]).T), values.shape
-    side = np.prod([np.where(field(nodes) < 0, -1.0, 1.0).reshape(shape) for field in factors], axis=0)
-    signed = continued(side * np.where(shares > 1.0, 1.0 / shares, small))
-    steps = RegularGridInterpolator((plane.ys, plane.xs), signed)
-    way = np.abs(steps(np.stack(np.meshgrid(finer.ys, finer.xs, indexing="ij"), axis=-1)))
-    return finer, middle * np.where(way < 1.0, 1.0 / np.maximum(way, 1e-12), np.exp(1.0 - np.maximum(way, 1.0)))
+    sides = [np.where(field(nodes) < 0, -1.0, 1.0).reshape(values.shape) for field in factors]
+    return finer, followed(values, sides, (plane.ys, plane.xs), (finer.ys, finer.xs))
 
 
 def planes(context: Context, nodes: int) -> list[MappedPlane]:

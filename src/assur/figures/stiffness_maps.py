@@ -45,7 +45,8 @@ def drawn(context: Context, maps: IndexMaps) -> Drawing:
     figure, pairs = panels(plane, titles, right=15.0)
     whole, motors = maps[LEAST].T / MICRO, maps[MOTORS].T / MICRO
     soft = [ridged(plane, values**-0.5) for values in (whole, motors)]  # grows with 1 over the distance from a ridge
-    shown = [*((finer, values**-2.0) for finer, values in soft), (plane, motors / whole)]
+    finer, root = ridged(plane, np.sqrt(motors / whole))  # where links give way with a higher power of the distance
+    shown = [*((finer, values**-2.0) for finer, values in soft), (finer, root**2)]
     images = []
     for pair, values, fine in zip(pairs, (whole, motors, motors / whole), shown, strict=True):
         known = values[np.isfinite(values)]
