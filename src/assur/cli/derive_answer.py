@@ -161,6 +161,7 @@ def _derived(record: Mechanism, problem: Problem) -> DerivedProblem:
         components=_components(solution), sides=solution.placed.sides,
         left_out=(*left_out(solution.placed, solution.loops.cranks),),
         vanish_at_home=tuple(map(str, conditions_at_home(solution))), relations=(*_relations(solution),),
+        conditions=tuple(f"{own} != 0" for own in solution.length_conditions),
     )  # fmt: skip
 
 

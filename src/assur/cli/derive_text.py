@@ -10,6 +10,7 @@ from rich.padding import Padding
 from assur.cli.output import Verbatim, heading
 from assur.results.answers.answer import ABSENT
 from assur.results.answers.derivation import DerivationAnswer, DerivedFactor, DerivedProblem, DerivedRelation
+from assur.results.plain_text import count
 
 LONG = 1200
 """Letters of a factor's formula that are printed; --json has all."""
@@ -19,7 +20,9 @@ def shown(data: DerivationAnswer) -> Iterable[RenderableType]:
     """The lines of an answer."""
     for part in data.problems:
         derived = part.status == "derived"
-        yield heading(f"{data.mechanism}, {part.problem}: {f'{part.branches} branches' if derived else 'not derived'}")
+        yield heading(
+            f"{data.mechanism}, {part.problem}: {count(part.branches or 0, 'branch') if derived else 'not derived'}"
+        )
         yield from (f"{k}. {own.text}" for k, own in enumerate(part.reasons, start=1))
         yield from (f"{name} is the vector from {start} to {end}" for name, (start, end) in part.sides.items())
         for own in part.sets:
@@ -83,6 +86,7 @@ def _meaning(text: str) -> Padding:
 
 def _end(part: DerivedProblem) -> Iterator[RenderableType]:
     """Results, and what is proved."""
+    yield from (Verbatim(f"    where {text}") for text in part.conditions)
     yield from (Verbatim(f"    {name} = {text}") for name, text in {**part.lengths, **part.results}.items())
     proved = "every branch closes every loop" if part.closes else "SOME BRANCH DOES NOT CLOSE"
     yield f"{proved}, modulo a prime of 160 bits"

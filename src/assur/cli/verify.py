@@ -107,6 +107,8 @@ def _derivation(path: Path, content: bytes, name: str | None, start: float) -> O
 
 def _proved(own: VerifiedProblem) -> str:
     """A derivation that holds, in a sentence."""
+    from assur.results.plain_text import count
+
     where = " and ".join(own.conditions)
     complete = f"complete where {where}" if where else "complete"
     assumed = f"; {' and '.join(own.assumed)} taken to stay parallelograms" if own.assumed else ""
@@ -114,7 +116,7 @@ def _proved(own: VerifiedProblem) -> str:
     alone = ", which the file's numbers have and no formula of it states"
     relations = [f"{text}{alone if text in own.unstated else ''}" for text in own.relations]
     related = f"; for dimensions with {' and '.join(relations)}" if relations else ""
-    return f"{own.problem}: derivation verified: {own.branches} branches, {complete}{assumed}{ways}{related}"
+    return f"{own.problem}: derivation verified: {count(own.branches, 'branch')}, {complete}{assumed}{ways}{related}"
 
 
 def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, seconds: float) -> Outcome:

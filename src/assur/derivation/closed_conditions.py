@@ -76,6 +76,7 @@ def closed_conditions(solution: AnalyticSolution) -> Iterator[ClosedCondition]:
     for place, part in enumerate(solution.sets):
         for condition in part.conditions:
             yield from _cases(solution, place, part, condition)
+    yield from (ClosedCondition(condition, (), "open") for condition in solution.length_conditions)
 
 
 def _cases(solution: AnalyticSolution, place: int, part: SolvedSet, condition: sympy.Expr) -> Iterator[ClosedCondition]:

@@ -44,11 +44,11 @@ def conditions_at_home(solution: AnalyticSolution) -> Iterator[sympy.Expr]:
         return abs(_value(formula, numbers))
 
     unknowns = {unknown for own in solution.loops.directions for unknown in own.unknowns}
-    for part in solution.sets:
-        own = [definition.symbol for definition in part.definitions if definition.symbol in radicands]
-        for condition in (*part.conditions, *own):
-            if abs(_value(condition, numbers)) <= VANISHED * size(condition):
-                yield condition
+    named = ((own.symbol for own in part.definitions if own.symbol in radicands) for part in solution.sets)
+    of_sets = (own for part, names in zip(solution.sets, named, strict=True) for own in (*part.conditions, *names))
+    for condition in (*of_sets, *solution.length_conditions):
+        if abs(_value(condition, numbers)) <= VANISHED * size(condition):
+            yield condition
 
 
 def _numbers(solution: AnalyticSolution) -> dict[sympy.Symbol, float]:

@@ -41,6 +41,16 @@ def tidy(formula: sympy.Expr) -> sympy.Expr:
     return cancelled(sympy.sympify(formula))
 
 
+def divisors(formula: sympy.Expr) -> list[sympy.Expr]:
+    """Factors of what a formula is divided by, without numbers.
+
+    >>> a, x, y = sympy.symbols("a x y")
+    >>> divisors(a / (2 * x * y) + 1 / x)
+    [x, y]
+    """
+    return [factor for factor, _ in sympy.factor_list(sympy.fraction(tidy(formula))[1])[1]]
+
+
 def value_of(form: Form) -> sympy.Expr:
     """The form as an expression."""
     return sum((coefficient * key for key, coefficient in form.items()), sympy.Integer(0))
@@ -136,7 +146,7 @@ def _turned_pair(
                 for part, rest in zip(shares, rests, strict=True):
                     total = combined(total, tidy(part / (share * square)), rest, witness)
                 values[key] = total
-            factors = [factor for factor, _ in sympy.factor_list(sympy.fraction(square)[0])[1]]
+            factors = divisors(1 / square)
             return factors, values, [own for own in forms if own is not first and own is not second]
     return None
 
@@ -212,7 +222,7 @@ def divided(row: Form) -> Form:
 def sparse(forms: Sequence[Form], witness: ModularWitness, everywhere: bool = False) -> list[Form]:
     """Equations of the same span with few unknowns each: pairs are combined as long as that shortens one of them.
 
-    Nothing is divided by a sum that may vanish, as a difference of two dimensions does in some other machine.
+    Nothing is divided by what may vanish, as a difference of two dimensions or the sine of one does in another machine.
 
     Args:
         forms: the equations.
@@ -243,7 +253,7 @@ def _shorter(forms: Sequence[Form], witness: ModularWitness, everywhere: bool) -
                 if count > size or (count == size and length + _size(other)[1] > LONG):
                     continue
                 share = tidy(-form[key] / other[key])
-                if not never_zero(share) and (everywhere or sympy.fraction(tidy(other[key]))[0].is_Add):
+                if not (never_zero(share) if everywhere else all(map(never_zero, divisors(share)))):
                     continue
                 changed = combined(form, share, other, witness)
                 if _size(changed) < _size(form):

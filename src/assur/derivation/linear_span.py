@@ -8,6 +8,7 @@ from contextlib import suppress
 import sympy
 
 from assur.derivation.linear import ONE, Form, divided, never_zero, projected, rank, replaced, solved, tidy, value_of
+from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.trigonometric import shorter
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
@@ -57,7 +58,7 @@ class LinearSpan:
             return same
         ways: list[Multipliers] = []
         for rows in self._ways(target) if self._spanned(target, self._rows) else ():
-            with suppress(NoIdentityError):
+            with suppress(NoIdentityError, NotDerivedError):  # a length that these do not say alone
                 ways.append(self._shares(target, rows))
                 if not _divides(ways[-1]):
                     return ways[-1]

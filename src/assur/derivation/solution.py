@@ -17,7 +17,20 @@ from assur.derivation.cycle_types import CycleType, GroupFindings, findings
 from assur.derivation.definitions import Definition
 from assur.derivation.elimination import Root, SolvedSet
 from assur.derivation.home_numbers import home_numbers
-from assur.derivation.linear import ONE, Form, divided, form_of, projected, rank, replaced, solved, sparse, value_of
+from assur.derivation.linear import (
+    ONE,
+    Form,
+    divided,
+    divisors,
+    form_of,
+    never_zero,
+    projected,
+    rank,
+    replaced,
+    solved,
+    sparse,
+    value_of,
+)
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, orientations
@@ -68,6 +81,14 @@ class AnalyticSolution:
     def eliminant(self) -> AngleEliminant | None:
         """The one polynomial, where there is one."""
         return next((part.eliminant for part in self.sets if part.eliminant), None)
+
+    @cached_property
+    def length_conditions(self) -> tuple[sympy.Expr, ...]:
+        """What may vanish of what is divided by after the sets: for lengths, and for the platform's point."""
+        sizes = self.symbols.witness.sizes
+        found = (*(own.formula for own in self.lengths), *(self.point if self.symbols.problem == "direct" else ()))
+        factors = {factor: None for formula in found for factor in divisors(formula)}
+        return tuple(own for own in factors if not never_zero(own, sizes))
 
     @property
     def definitions(self) -> tuple[Definition, ...]:

@@ -199,7 +199,10 @@ class WrittenSolution(WrittenPolynomial):
     def _result(self) -> WrittenPart:
         direct = self.solution.symbols.problem == "direct"
         rows = tuple(self._pose() if direct else self._inputs())
-        return WrittenPart("The pose" if direct else "The inputs", (rows,) if rows else (self._solved(),))
+        blocks: tuple[Block, ...] = (rows,) if rows else (self._solved(),)
+        if conditions := [rf"${self._condition(own)} {NOT_ZERO}" for own in self.solution.length_conditions]:
+            blocks += (f"These hold where {listed(conditions)}.",)
+        return WrittenPart("The pose" if direct else "The inputs", blocks)
 
     def _pose(self) -> Iterator[WrittenFormula]:
         yield from (self.line(own.symbol, own.formula) for own in self.solution.lengths)

@@ -249,11 +249,12 @@ class DerivedProblem:
     `status` is "derived" or "not_derived"; `why` says what resists. `closes`: whether every branch closes every loop,
     modulo a prime that is drawn. `proved` says what roots its polynomial cannot have; `components` what it is a product
     of. `sides` are vectors from one ball joint of a link to another. `assumed` are the parallelograms that stay such;
-    `left_out` says in which other way links may stand; `vanish_at_home` are conditions and radicands that are zero at
-    the file's home; `lengths` are found after the sets. `proof` is there where it is asked for, or `not_proved` says
-    why it is not. `square_roots`: whether these alone solve it; "no" is proved. `resists` is the set that is not
-    solved; `count` the number of solutions, found without any of the elimination; `closed` what holds where conditions
-    do not, derived modulo a prime. `relations`: dimensions for which alone it holds.
+    `left_out` says in which other way links may stand; `vanish_at_home` are conditions and radicands that are zero
+    at the file's home; `lengths` are found after the sets, where their own `conditions` hold. `proof` is there
+    where it is asked for, or `not_proved` says why it is not. `square_roots`: whether these alone solve it; "no" is
+    proved. `resists` is the set that is not solved; `count` the number of solutions, found without any of the
+    elimination; `closed` what holds where conditions do not, derived modulo a prime. `relations`: dimensions for
+    which alone it holds.
     """
 
     problem: str
@@ -278,6 +279,7 @@ class DerivedProblem:
     components: DerivedComponents | Absent = ABSENT
     sides: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     relations: tuple[DerivedRelation, ...] = ()
+    conditions: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

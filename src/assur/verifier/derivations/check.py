@@ -301,10 +301,13 @@ class _ProblemCheck(KnownFormulas):
         known = formulas.keys() - self.unknowns - choices.keys()
         self.names |= {name: own for name, own in formulas.items() if name in known}
         self.numbers.squares |= {root: formulas[root] for root in choices}
-        self.conditions += texts
-        self.allowed += (self._side(text, " != 0") for text in texts)
+        self._allow(texts)
         for name, own in formulas.items():
             self.divided(own, f"the formula of {name}")
+
+    def _allow(self, texts: Sequence[str]) -> None:
+        self.conditions += texts
+        self.allowed += (self._side(text, " != 0") for text in texts)
 
     def _side(self, text: str, end: str = " = 0") -> Term:
         """What an equation says is zero, or a condition that it is not."""
@@ -317,7 +320,9 @@ class _ProblemCheck(KnownFormulas):
             require(self.zero(own - self.total(multiples, known)), f"{name} does not follow of {', '.join(multiples)}")
 
     def _lengths(self) -> None:
-        """Lengths after the sets."""
+        """Lengths after the sets: loops are in lengths that slide and in circles, formulas in vectors of both."""
+        self.values |= {name: term(self.read(text)) for name, text in self.proof["vectors"].items()}
+        self._allow(self.problem.get("conditions", ()))
         for name, text in self.problem["lengths"].items():
             own = self.checked(text)
             shares = self.proof["lengths"][name]
