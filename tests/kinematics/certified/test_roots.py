@@ -4,6 +4,8 @@ import pytest
 import assur
 from assur.kinematics.certified.certify import certified_direct
 from assur.kinematics.certified.matching import BOTH
+from assur.kinematics.certified.roots import nearest_rows
+from assur.numerics.intervals.interval import Interval
 
 
 def legs_of(record, pose):
@@ -44,3 +46,12 @@ def test_a_double_root_is_undecided():
     found = certified_direct(record, low)
     assert not found.proved
     assert "phi" in {item.name for item in found.undecided}
+
+
+def test_branches_at_one_pose_are_different_rows_of_the_float_answer():
+    """Limbs that stand in two ways at a pose: two branches, each with a name of its own."""
+    poses = np.array([[1.0, 2.0], [5.0, 5.0], [1.0, 2.0], [np.nan, np.nan]])
+    exists = np.array([True, True, True, False])
+    ends = np.array([[1.0, 2.0], [5.0, 5.0], [1.0, 2.0], [1.0, 2.0]])
+    assert nearest_rows(Interval.of(ends - 1e-9, ends + 1e-9), poses, exists) == [0, 1, 2, 0]
+    assert nearest_rows(Interval.of(ends, ends), poses, np.zeros(4, dtype=bool)) == []

@@ -54,10 +54,8 @@ def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: Float
     floats = position.direct(record, inputs)
     known = proofs(Legs(record, inputs), floats)
     found = _together(record, pieces)
-    names = (
-        _labels(found, floats.poses, floats.exists, floats.labels),
-        _labels(found, floats.poses, floats.exists, floats.other_labels),
-    )
+    rows = nearest_rows(found.pose, floats.poses, floats.exists)
+    names = (_texts(found, floats.labels[rows]), _texts(found, floats.other_labels[rows]))
     parts = 2 ** len(eliminant.signs)
     which = f"{parts} polynomials" if parts > 1 else "the polynomial"
     right = f"the closed form, all roots of {which} of degree {eliminant.roots} in discs over intervals"
@@ -139,12 +137,24 @@ def _together(record: MechanismRecord, pieces: list[JudgedBranches]) -> JudgedBr
     )
 
 
-def _labels(
-    judged: JudgedBranches, poses: FloatArray, exists: NDArray[np.bool_], labels: NDArray[np.str_]
-) -> tuple[str, ...]:
-    """The float answer's label of each branch: that of the nearest pose, none where there is no float answer."""
+def _texts(judged: JudgedBranches, labels: NDArray[np.str_]) -> tuple[str, ...]:
+    """The labels of all branches; empty ones where there is no float answer."""
+    return tuple(map(str, labels)) or ("",) * len(judged.exists)
+
+
+def nearest_rows(bounds: Interval, poses: FloatArray, exists: NDArray[np.bool_]) -> list[int]:
+    """The row of the float answer (K, m) that is each branch (N, m): that of the nearest pose; none without any.
+
+    Where limbs stand in several ways at one pose, that is as near in several rows: each of these is one branch.
+    """
     rows = np.flatnonzero(exists)
     if not len(rows):
-        return ("",) * len(judged.exists)
-    gaps = np.linalg.norm(judged.pose.middle[:, None] - poses[rows], axis=-1)
-    return tuple(str(labels[rows[k]]) for k in np.argmin(gaps, axis=1))
+        return []
+    widths = np.linalg.norm(bounds.high - bounds.low, axis=-1)
+    gaps = np.linalg.norm(bounds.middle[:, None] - poses[rows], axis=-1)
+    taken: list[int] = []
+    for width, own in zip(widths, gaps, strict=True):
+        near = np.flatnonzero(own <= np.min(own) + width)
+        free = [k for k in near if rows[k] not in taken]
+        taken.append(int(rows[free[0] if free else np.argmin(own)]))
+    return taken
