@@ -1,6 +1,7 @@
 """The C of a closed form: compiled without a warning, right by its own test, and equal to Python on many inputs."""
 
 import ctypes
+import re
 import shutil
 import subprocess
 from functools import lru_cache
@@ -11,7 +12,8 @@ import pytest
 
 from assur.derivation.derivation import derive
 from assur.errors import UsageError
-from assur.export.c99 import c99_text, identifier
+from assur.export.c99 import c99_text
+from assur.export.c99_text import identifier
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
@@ -111,6 +113,17 @@ def test_a_mechanism_without_closed_form_is_refused(tmp_path):
 def test_it_compiles_without_a_warning_and_its_own_test_is_fine(name, tmp_path):
     target = compiled(name, tmp_path, f"-D{identifier(name).upper()}_TEST")
     assert subprocess.run([str(target)], check=True, capture_output=True, text=True).stdout == f"{name}: fine\n"
+
+
+def test_a_dimension_may_have_the_name_of_a_keyword_of_c(tmp_path):
+    folder = load_record("fivebar").file.parent
+    for name in ("mechanism.toml", "closed_form.py"):
+        text = (folder / name).read_text(encoding="utf-8")
+        (tmp_path / name).write_text(re.sub(r"\bl1\b", "short", text), encoding="utf-8")
+    source_file, target = tmp_path / "own.c", tmp_path / "own"
+    source_file.write_text(c99_text(load_record(tmp_path)), encoding="ascii")
+    subprocess.run([*GCC, "-DFIVEBAR_TEST", str(source_file), "-o", str(target), "-lm"], check=True)
+    assert subprocess.run([str(target)], check=True, capture_output=True, text=True).stdout == "fivebar: fine\n"
 
 
 @pytest.mark.parametrize(

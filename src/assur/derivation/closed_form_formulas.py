@@ -14,7 +14,7 @@ from assur.derivation.definitions import FreeNames
 from assur.derivation.direct_pose import direct_rest, hinge_angles, of_triangle, turned_by, upright
 from assur.derivation.elimination import SolvedSet
 from assur.derivation.joint_formulas import SolvedJoints, joint_formulas
-from assur.derivation.linear import ONE, tidy
+from assur.derivation.linear import ONE, divisors
 from assur.derivation.mirror_polynomials import MirrorPolynomials, mirror_polynomials
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sizes import Sizes
@@ -32,8 +32,6 @@ LENIENT = 2
 """So much larger a direct problem's margins may be: it finds again what the inverse problem gives at its borders."""
 APART = sympy.Symbol("apart", real=True)
 """Of a root in askew coordinates: a square without scale that vanishes where two solutions have the same one."""
-
-
 ASIDE = sympy.Symbol("aside", real=True)
 """1 less the square of a cosine or a sine: two solutions that are mirror images merge where it vanishes."""
 
@@ -203,8 +201,8 @@ class ClosedFormFormulas:
             return False
         if part.eliminant is None or condition.is_Symbol:
             return True
-        under = {factor for own in part.definitions for factor in _factors(sympy.fraction(tidy(own.formula))[1])}
-        return bool(_factors(sympy.fraction(tidy(condition))[0]) & under)
+        under = {factor for own in part.definitions for factor in divisors(own.formula)}
+        return bool({*divisors(1 / condition)} & under)
 
     def _condition_name(self, condition: sympy.Expr, link: str, number: int) -> str:
         return condition.name if condition.is_Symbol else f"c{number}_{link}"
@@ -346,10 +344,6 @@ class ClosedFormFormulas:
 
 def _is_sum_of_squares(formula: sympy.Expr) -> bool:
     return all(part.is_Pow and part.exp == 2 for part in sympy.Add.make_args(formula))
-
-
-def _factors(formula: sympy.Expr) -> set[sympy.Expr]:
-    return {factor for factor, _ in sympy.factor_list(formula)[1]}
 
 
 def _real(name: str) -> sympy.Symbol:

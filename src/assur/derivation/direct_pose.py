@@ -135,13 +135,17 @@ def _left_out_of_triangle(direct: AnalyticSolution, link: str) -> Pair:
 
 
 def turned_by(direct: AnalyticSolution, name: str) -> Pair:
-    """Cosine and sine of an angle of the pose, of a platform that turns about Z. Errors: NotDerivedError."""
+    """Cosine and sine of an angle of the pose, of a platform that turns about Z: of a link's own, or of an input.
+
+    Errors: NotDerivedError.
+    """
     link = direct.symbols.record.platform.link
     own = direct.placed.links[link]
-    upright = own.axis is not None and tuple(own.axis) == (0, 0, 1) and own.rod is None
-    for direction in direct.loops.directions if name == "phi" and upright else ():
-        if link in direction.links:
-            return direction.unknowns[0], direction.unknowns[1]
+    if name == "phi" and own.rod is None and own.triangle is None and own.second is None:
+        rotation = platform_rotation(direct)
+        cosine, sine = rotation[0][0], rotation[1][0]
+        if tuple(rotation[2]) == (0, 0, 1) and cosine.is_Symbol and sine.is_Symbol:
+            return cosine, sine
     raise NotDerivedError(
         f"{name} of the pose is written of a platform that turns about Z alone, and {link} turns otherwise"
     )

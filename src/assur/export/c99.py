@@ -7,7 +7,6 @@ operation by operation; a polynomial's roots by Aberth's iteration, polished by 
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +14,7 @@ from typing import Any
 
 from assur.errors import UsageError
 from assur.export.answers_about_home import answers_about_home
-from assur.export.c99_text import HEAD, LEFT_OVER, POLYNOMIAL, SELF_TEST
+from assur.export.c99_text import HEAD, LEFT_OVER, POLYNOMIAL, SELF_TEST, identifier
 from assur.kinematics.contract.kernel import Kernel, recorded
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import tolerance
@@ -47,16 +46,6 @@ def c99_text(record: MechanismRecord) -> str:
             hint="assur derive M --c FILE writes those that it derives",
         )
     return _Source(record).text()
-
-
-def identifier(name: str) -> str:
-    """A name as C allows it.
-
-    >>> identifier("my-robot.2"), identifier("3rpr")
-    ('my_robot_2', 'm3rpr')
-    """
-    plain = re.sub(r"\W", "_", name, flags=re.ASCII)
-    return plain if re.match(r"[A-Za-z]", plain) else f"m{plain}"
 
 
 @dataclass(frozen=True, eq=False)

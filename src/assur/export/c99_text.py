@@ -1,4 +1,23 @@
-"""The parts of C99 files that are the same in all of them: head, roots of polynomials, a main that tests."""
+"""The parts of C99 files that are the same in all of them: head, roots of polynomials, a main that tests; names."""
+
+import re
+
+TAKEN = """auto break case char const continue default do double else enum extern float for goto if inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    HUGE_VAL HUGE_VALF HUGE_VALL INFINITY NAN"""
+"""Keywords of C99, and macros of math.h that are no functions: a dimension of a file may have such a name."""
+
+
+def identifier(name: str) -> str:
+    """A name as C allows it; different names of a file stay different.
+
+    >>> identifier("my-robot.2"), identifier("3rpr"), identifier("short"), identifier("short_")
+    ('my_robot_2', 'm3rpr', 'short_', 'short__')
+    """
+    plain = re.sub(r"\W", "_", name, flags=re.ASCII)
+    plain = plain if re.match(r"[A-Za-z]", plain) else f"m{plain}"
+    return f"{plain}_" if plain.rstrip("_") in TAKEN.split() else plain
+
 
 HEAD = """\
 /* {title}

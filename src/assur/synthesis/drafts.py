@@ -52,4 +52,8 @@ def solved_by(record: MechanismRecord, problem: Problem) -> str:
 def _in_words(solution: AnalyticSolution) -> str:
     if solution.eliminant is None:
         return f"square roots, {plural(solution.branches, 'branch')}"
-    return f"one polynomial of degree {solution.eliminant.degree}"
+    own = solution.components
+    if own is None or own.solutions == 1:
+        return f"one polynomial of degree {solution.eliminant.degree}"
+    degrees = " and ".join(str(part.degree) for part in own.parts)
+    return f"{plural(len(own.parts), 'polynomial')} of degree {degrees}, and a mirror sign"
