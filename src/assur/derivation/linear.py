@@ -42,13 +42,17 @@ def tidy(formula: sympy.Expr) -> sympy.Expr:
 
 
 def divisors(formula: sympy.Expr) -> list[sympy.Expr]:
-    """Factors of what a formula is divided by, without numbers.
+    """Factors of what a formula is divided by, without numbers and powers; of a root what is under it.
 
     >>> a, x, y = sympy.symbols("a x y")
     >>> divisors(a / (2 * x * y) + 1 / x)
     [x, y]
+    >>> divisors(a / sympy.sqrt(3)), divisors(a / (9 * x**2 * sympy.sqrt(y + 1)))
+    ([], [x, y + 1])
     """
-    return [factor for factor, _ in sympy.factor_list(sympy.fraction(tidy(formula))[1])[1]]
+    under = sympy.fraction(tidy(formula))[1]
+    factors = (factor.as_base_exp()[0] for factor in sympy.Mul.make_args(sympy.factor(under)))
+    return [factor for factor in factors if not factor.is_number]
 
 
 def value_of(form: Form) -> sympy.Expr:
@@ -300,12 +304,23 @@ def never_zero(formula: sympy.Expr, sizes: tuple[sympy.Expr, ...] = ()) -> bool:
     >>> a, b = sympy.symbols("a b", real=True)
     >>> never_zero(a**2 + 1), never_zero(a**2 + b**2), never_zero(2 * a**2 + 2 * b**2, (a**2 + b**2,))
     (True, False, True)
+    >>> never_zero(3 * a**2 + 4 * b**2, (a**2 + b**2,)), never_zero(3 * a**2, (a**2 + b**2,))
+    (True, False)
     """
     own = sympy.factor_terms(formula)
     known = {symbol for size in sizes for symbol in size.free_symbols}
     if known & own.free_symbols and all(symbol in known or symbol.is_positive for symbol in own.free_symbols):
         own = sympy.factor(own).subs({size: sympy.Dummy(positive=True) for size in sizes})
-    return bool(own.is_nonzero)
+    return bool(own.is_nonzero) or _has_size(own, sizes)
+
+
+def _has_size(formula: sympy.Expr, sizes: tuple[sympy.Expr, ...]) -> bool:
+    """Whether it is a sum of squares that vanish together only where the square of some axis' length does."""
+    terms = [term.as_coeff_Mul() for term in sympy.Add.make_args(formula)]
+    if not all(factor.is_positive and square.is_Pow and square.exp == 2 for factor, square in terms):
+        return False
+    gone = {square.base: 0 for _, square in terms}
+    return any(size.subs(gone) == 0 for size in sizes)
 
 
 def rank(forms: Sequence[Form], unknowns: Sequence[sympy.Symbol], witness: ModularWitness) -> int:
