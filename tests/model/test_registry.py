@@ -209,3 +209,17 @@ def test_what_is_left_out_says_why() -> None:
         assert item.source
         with pytest.raises(UnknownNameError, match=re.escape(item.reason)):
             load_topology(item.name)
+
+
+@pytest.mark.parametrize("slip", ["my.tml", "mi.toml", "my"])
+def test_a_file_beside_is_named_where_its_name_was_mistyped(tmp_path, monkeypatch, slip):
+    (tmp_path / "my.toml").write_text("", encoding="utf-8")
+    (tmp_path / "other.toml").write_text("", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for folder in ("", f"{tmp_path}/"):
+        with pytest.raises(UsageError) as caught:
+            load_record(f"{folder}{slip}")
+        assert caught.value.hint == f"did you mean {folder}my.toml?"
+    with pytest.raises(UsageError) as caught:
+        load_record("nothing.tml")
+    assert "did you mean" not in caught.value.hint

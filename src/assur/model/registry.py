@@ -14,7 +14,7 @@ from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageErr
 from assur.model.closed_form import ClosedForm
 from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.consent import built_in
-from assur.model.file.description import description_text, with_ending
+from assur.model.file.description import description_text, named_nearly
 from assur.model.kept_readings import keep_reading, kept_reading
 from assur.model.mechanism import MechanismRecord
 from assur.results.reading import file_text
@@ -162,7 +162,7 @@ def file_of(name_or_path: str | Path, files_of_folder: tuple[str, str] = (FILE, 
                 return folder / file
     if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
         return path
-    own = with_ending(text)
+    own = named_nearly(text)
     if text.strip() and os.path.exists(path):  # noqa: PTH110  # as above
         what = f"a folder without {files_of_folder[0]}" if path.is_dir() else "a file that does not end in .toml"
         raise UsageError(f"'{text}' is {what}", hint=own or "name a mechanism (`assur list` has them) or a .toml file")

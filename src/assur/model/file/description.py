@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +16,11 @@ from assur.results.reading import file_text
 if TYPE_CHECKING:
     from assur.model.file.schema import FileEntry
     from assur.model.file.toml_source import TomlSource
+
+ALIKE = 0.8
+"""How alike names of files are of which one is a slip for the other: my.tml and my.toml are to 0.92."""
+MOST_BESIDE = 1000
+"""Files of a folder that are compared with a name at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,14 +80,23 @@ class Form:
     faults: Faults
 
 
-def with_ending(text: str) -> str:
-    """The hint that a file has the name but for its ending; empty where there is none.
+def named_nearly(text: str) -> str:
+    """The hint that names a mechanism's file of nearly this path: its own ending, or a slip; empty where there is none.
 
-    >>> with_ending("no such file")
+    >>> named_nearly("no such file")
     ''
     """
-    there = text.strip() and os.path.isfile(f"{text}.toml")  # noqa: PTH113  # which a name that is none does not upset
-    return f"did you mean {text}.toml?" if there else ""
+    if not text.strip():
+        return ""
+    if os.path.isfile(f"{text}.toml"):  # noqa: PTH113  # which a name that is none does not upset
+        return f"did you mean {text}.toml?"
+    folder, name = os.path.split(text)
+    try:
+        beside = [entry for entry in os.listdir(folder or ".") if entry.endswith(".toml")]  # noqa: PTH208  # as above
+    except (OSError, ValueError):
+        return ""
+    near = difflib.get_close_matches(name, beside[:MOST_BESIDE], n=1, cutoff=ALIKE)
+    return f"did you mean {os.path.join(folder, near[0])}?" if near else ""  # noqa: PTH118  # as it was typed
 
 
 def description_text(path: Path) -> str:
@@ -89,4 +104,4 @@ def description_text(path: Path) -> str:
 
     Errors: as `assur.results.reading.file_text`.
     """
-    return file_text(path, hint=with_ending(str(path)))
+    return file_text(path, hint=named_nearly(str(path)))
