@@ -62,9 +62,18 @@ def test_each_limb_resists_a_force_through_the_point_alone(wrist_limbs):
             assert np.allclose(wrenches(limb, place)[:, :3], 0.0, atol=1e-8), limb.text
 
 
+def test_a_ball_joint_elsewhere_makes_limbs_of_the_wrist():
+    """The force through the point and the centre of the ball is all that R R S resists, in any order of its joints."""
+    texts = {plain_text(limb.chain) for limb in following_types(ABOUT_A_POINT, 3, "base")}
+    assert {"R[x]@O R[y]@O S", "R[x]@O S R[y]@O"} <= texts
+    assert not {plain_text(limb.chain) for limb in following_types(rows_named("1T2R:UP")[0], 3, "any")} & texts
+
+
 def test_limbs_of_a_class_resist_the_same(wrist_limbs):
     for members in classes_by_constraints(wrist_limbs, ABOUT_A_POINT):
         first = wrenches(members[0], 0)
+        if len({limb.text for limb in members}) == 1:  # what it resists depends on lengths: it is alone with its drives
+            continue
         for limb in members:
             together = np.concatenate([first, wrenches(limb, 0)], axis=-1)
             assert np.linalg.matrix_rank(together, tol=1e-6).max() == 6 - limb.type.freedoms

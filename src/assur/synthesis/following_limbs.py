@@ -34,13 +34,17 @@ from assur.topology.screws.edges import Edge, null_basis
 FloatArray = NDArray[np.float64]
 Words = NDArray[np.intp]
 
-KINDS = "RPO"
-"""Of a letter: a revolute joint anywhere, a prismatic one, a revolute one whose axis runs through the point."""
+KINDS = "RPOS"
+"""Of a letter: a revolute joint anywhere, a prismatic one, a revolute one whose axis runs through the point, and one of
+the three of a ball joint that stands elsewhere."""
 
 KINDS_OF_JOINTS = ("R", "P", "U", "S")
 """What limbs are made of, as it is written."""
 
-LETTERS = len(KINDS) * len(AXES)
+SINGLE = KINDS.index("S") * len(AXES)
+"""So many letters stand by themselves."""
+
+BALL = tuple(range(SINGLE, SINGLE + len(AXES)))
 
 POINT = "O"
 """Label of the point."""
@@ -67,11 +71,11 @@ def following_words(motion: VirtualChain, freedoms: int, *, idle: bool = False) 
         freedoms: letters of a word.
         idle: whether one R may stay at rest.
     """
-    every = np.array(list(product(range(LETTERS), repeat=freedoms)), dtype=np.intp)
+    every = np.array(list(_spelled(freedoms)), dtype=np.intp)
     again = (every[:, 1:] == every[:, :-1]) & (every[:, 1:] >= len(AXES))  # the same slide or line twice
     words: Words = every[~np.any(again, axis=1)]
     if len(motion.translations) == len(AXES):  # then points make no difference
-        words = words[np.all(words < 2 * len(AXES), axis=1)]
+        words = words[np.all(words < KINDS.index("O") * len(AXES), axis=1)]
     twists = _series(words, 1).at(np.zeros(words.shape))[2]
     asked = motion.series.at(np.zeros((1, motion.dim)))[2]
     basis, singular, _ = np.linalg.svd(twists, full_matrices=False)
@@ -85,12 +89,22 @@ def following_words(motion: VirtualChain, freedoms: int, *, idle: bool = False) 
     return _without_needless_points(words, moving)
 
 
+def _spelled(freedoms: int) -> Iterator[tuple[int, ...]]:
+    """All words of a length, those without a ball joint first."""
+    yield from product(range(SINGLE), repeat=freedoms)
+    for others in product(range(SINGLE), repeat=freedoms - len(BALL)) if freedoms >= len(BALL) else ():
+        for place in range(len(others) + 1):
+            yield (*others[:place], *BALL, *others[place:])
+
+
 def _series(words: Words, draws: int = DRAWS) -> PlacedSeries:
     generator = np.random.default_rng(words.shape[1])
     kinds = words // len(AXES)
-    axes, turning, anywhere = np.eye(3)[words % len(AXES)], kinds != KINDS.index("P"), kinds == KINDS.index("R")
+    axes, turning = np.eye(3)[words % len(AXES)], kinds != KINDS.index("P")
+    ball, anywhere = (kinds == KINDS.index("S"))[..., None], (kinds == KINDS.index("R"))[..., None]
     points = generator.uniform(-SIZE, SIZE, (draws, 1, words.shape[1], 3))
-    return best_of([PlacedSeries(axes, np.where(anywhere[..., None], one, 0.0), turning) for one in points])
+    placed = (np.where(ball, one[:, :1], np.where(anywhere, one, 0.0)) for one in points)
+    return best_of([PlacedSeries(axes, one, turning) for one in placed])
 
 
 def _moving(series: PlacedSeries, motion: VirtualChain, values: FloatArray, *, idle: bool) -> NDArray[np.bool_]:
@@ -116,7 +130,7 @@ def _without_needless_points(words: Words, kept: NDArray[np.bool_]) -> Words:
         freed = (
             [*word[:place], letter - through, *word[place + 1 :]]
             for place, letter in enumerate(word)
-            if letter >= through
+            if through <= letter < SINGLE
         )
         return not any(tuple(other) in follow for other in freed)
 
@@ -154,7 +168,10 @@ def types_with(
 
 
 def _chains(word: Sequence[int]) -> Iterator[Chain]:
-    """The word with each letter a joint, and with neighbours behind the first, or all of them, taken together."""
+    """The word with each letter a joint, and with neighbours behind the first, or all of them, taken together.
+
+    A ball joint that stands elsewhere than in the point is one in each.
+    """
     letters = [(KINDS[letter // len(AXES)], AXES[letter % len(AXES)]) for letter in word]
     ways = {tuple(_taken_together(letters, start)) for start in (len(letters), 1, 0)}
     for groups in sorted(ways, key=repr):
@@ -169,14 +186,10 @@ def _taken_together(letters: Sequence[tuple[str, str]], start: int) -> Iterator[
     place = 0
     while place < len(letters):
         group = tuple(letters[place : place + 3])
-        turns = [kind != "P" for kind, _ in group]
-        if (
-            place >= start
-            and len({axis for _, axis in group}) == len(group) == 3
-            and {kind for kind, _ in group} == {"O"}
-        ):
+        kinds, axes = zip(*group, strict=True)
+        if kinds == ("S",) * 3 or (place >= start and kinds == ("O",) * 3 and len({*axes}) == 3):
             size = 3
-        elif place >= start and len(group) > 1 and all(turns[:2]) and group[0][1] != group[1][1]:
+        elif place >= start and {*kinds[:2]} <= {"R", "O"} and len({*axes[:2]}) == 2:
             size = 2
         else:
             size = 1

@@ -25,6 +25,14 @@ def test_coordinates_are_those_that_move(twists, pose):
     assert pose_for(mixed, len(twists)) == pose
 
 
+def test_a_platform_that_turns_about_a_point_is_placed_by_angles():
+    about = np.stack([WX + Y, WY - X, WZ + 0.5 * Z], axis=1)
+    assert pose_for(about, 3) == ("x", "y", "z")
+    assert pose_for(about, 3, turns=True) == ("phi", "theta", "psi")
+    assert pose_for(about[:, :2], 2, turns=True) == ("theta", "psi")
+    assert pose_for(np.stack([X, Y], axis=1), 2, turns=True) == ("x", "y")
+
+
 def test_no_choice_is_said_to_be_none():
     assert pose_for(np.stack([X, X + 1e-9 * Y], axis=1), 2) is None
     assert pose_for(np.stack([X, WZ], axis=1), 2, still=True) is None

@@ -37,7 +37,7 @@ from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.facts import Topology
 from assur.topology.notation import plain_text
-from assur.topology.poc import motion_name
+from assur.topology.poc import PocSet, motion_name
 from assur.work import stage
 
 BY_LENGTHS = (
@@ -108,14 +108,14 @@ class DraftQuestion:
     def _written(self, drawn: Draft, *, moved: bool, unchecked: bool) -> Attempt:
         driven = _inputs(self.chains, drawn, self.inputs)
         first = Chosen(self.path.stem, (), (*LENGTHS, *ANGLES), False, driven, {}, {})
-        still = self.topology.poc.r == 0
+        still, turns = self.topology.poc.r == 0, turns_alone(self.topology.poc)
         try:
             record = self._read(drawn, first)
             values = away(record, still=still) if moved else home_values(record)
             if values is None:
                 return Attempt("", None, "the platform cannot be moved away from home")
             freedoms = self.topology.actuation.needed
-            pose = pose_for(motions(record, values, RANK_GAP).twists, freedoms, still=still)
+            pose = pose_for(motions(record, values, RANK_GAP).twists, freedoms, still=still, turns=turns)
             if pose is None:
                 return Attempt("", None, f"no {freedoms} coordinates say where the platform is")
             chosen = dataclasses.replace(
@@ -219,6 +219,11 @@ class DraftQuestion:
                 return chosen
             counted.append(turned_round(knee) if max(bends) < 0 else knee)
         return dataclasses.replace(chosen, working=_working(drawn, counted))
+
+
+def turns_alone(poc: PocSet) -> bool:
+    """Whether the platform turns in several ways, and its translations come with these: as about a point."""
+    return poc.dim == poc.r > 1
 
 
 def _fault(record: MechanismRecord) -> str:

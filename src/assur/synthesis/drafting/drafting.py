@@ -12,7 +12,7 @@ from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.naming import described_signs
 from assur.kinematics.rates.restraint import WELL
 from assur.model.pose import LENGTHS
-from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
+from assur.synthesis.drafting.attempts import Attempt, DraftQuestion, turns_alone
 from assur.synthesis.drafting.copying import mechanism_name
 from assur.synthesis.drafting.homes import CLEAR, LEAST, remarks
 from assur.synthesis.drafting.inputs import inputs_for
@@ -142,6 +142,8 @@ def drafted(
 
 def _lengths_enough(poc: PocSet) -> int:
     """How many lengths a pose should have: where the platform tilts, those that do not come with its rotations."""
+    if turns_alone(poc):
+        return 0
     own = poc.dim - poc.r if poc.r > 1 else poc.dim
     return min(poc.t, max(own, 1))
 

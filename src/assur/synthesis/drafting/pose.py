@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -18,19 +19,29 @@ FAIR, GOOD = 0.05, 0.3
 """Shares of the best choice's least singular value: enough for a choice with more lengths, enough among its equals."""
 
 
-def pose_for(twists: FloatArray, count: int, *, still: bool = False) -> Pose | None:
+def pose_for(twists: FloatArray, count: int, *, still: bool = False, turns: bool = False) -> Pose | None:
     """Coordinates for a platform with some freedoms; None where no choice of so many is independent.
 
     Args:
         twists: (6, n) platform's twists at home, one for each motion, lengths scaled to numbers.
         count: how many coordinates are required; six are x, y, z and a quaternion.
         still: whether the platform keeps its orientation, so that only x, y, z count.
+        turns: whether its rotations are as many as its freedoms, so that angles come first: lengths come with them.
 
     >>> plane = np.eye(6)[:, [2, 3, 4]]
     >>> pose_for(plane, 3), pose_for(np.eye(6), 6)[2:4], pose_for(plane, 4)
     (('x', 'y', 'phi'), ('z', 'qw'), None)
+    >>> about_a_point = np.vstack([np.eye(3), [[0, 1, 0], [-1, 0, 0], [0, 0, 0.5]]])
+    >>> pose_for(about_a_point, 3), pose_for(about_a_point, 3, turns=True)
+    (('x', 'y', 'z'), ('phi', 'theta', 'psi'))
     """
-    names = LENGTHS if still else (*LENGTHS, *ANGLES)
+    if turns and (angles := pose_among(ANGLES, twists, count)):
+        return angles
+    return pose_among(LENGTHS if still else (*LENGTHS, *ANGLES), twists, count)
+
+
+def pose_among(names: Sequence[str], twists: FloatArray, count: int) -> Pose | None:
+    """The same, of some coordinates."""
     if count > len(names):
         return None
     choices = list(combinations(names, count))
