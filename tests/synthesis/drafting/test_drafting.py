@@ -255,6 +255,14 @@ def test_a_home_near_the_end_of_a_leg_s_reach_is_said():
     assert "the end of a leg's reach" in remarks(with_parameters(record, l1=100.3))[0]
 
 
+@pytest.mark.deep
+def test_lengths_that_would_have_to_be_special_give_way_to_coordinates():
+    """Whole lengths close too, but the centres of base and platform come apart, and the platform translates."""
+    made = drafted(parse_chains(["R[x]@O S R[y]@O", "R[y]@O S R[z]@O", "R[z]@O S R[x]@O"]), PATH)
+    assert (made.topology.poc.t, made.topology.poc.r) == (0, 3)
+    assert "the loops close whatever their values are" in " ".join(made.text.replace("#", "").split())
+
+
 def test_axes_through_several_points_are_not_drafted():
     with pytest.raises(UsageError, match="limb 1: the axis of U1 runs through further points"):
         drafted(parse_chains(["U[x@O,y] P[z] R[y]", "U[x@O,y] P[z] R[y]", "S P[z] R[x]"]), Path("my.toml"))

@@ -58,6 +58,7 @@ def off_axis(linkage: Linkage, name: str, shift: np.ndarray) -> Linkage:
     [
         (SPHERICAL, [["a", "a", "a"]] * 3),
         (["R[x]@O R[y]@O", "R[y]@O R[z]@O R[x]@O"], [["a", "a"], ["a", "a", "a"]]),
+        (["R[x]@O S R[y]@O", "R[y]@O S R[z]@O", "R[z]@O S R[x]@O"], [["a", "", "a"]] * 3),
         # shared in the base alone, and in the platform alone
         (["U[x,y]@A P[z] S", "U[y,x]@A P[z] S"], [["a", "", ""], ["a", "", ""]]),
         (["U[x,y] P[z] S@B", "R[x] R[x] R[x]@B R[y]@B R[z]@B"], [["", "", "a"], ["", "", "a", "a", "a"]]),

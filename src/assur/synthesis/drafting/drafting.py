@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from assur.kinematics.rates.restraint import WELL
 from assur.model.pose import LENGTHS
 from assur.synthesis.drafting.attempts import Attempt, DraftQuestion, turns_alone
 from assur.synthesis.drafting.copying import mechanism_name
+from assur.synthesis.drafting.facts import MOTION
 from assur.synthesis.drafting.homes import CLEAR, LEAST, remarks
 from assur.synthesis.drafting.inputs import inputs_for
 from assur.synthesis.drafting.layout import layouts_for
@@ -105,10 +107,29 @@ def drafted(
         )
     inputs, topology = inputs_for(chains, actuate, mode)
     asked = DraftQuestion(chains, path, inputs, topology, mode, coordinates)
-    enough = _lengths_enough(topology.poc)
     reasons: dict[str, None] = {}
+    made = _found(asked, reasons)
+    if made is None and not coordinates and any(reason.startswith(MOTION) for reason in reasons):
+        made = _found(dataclasses.replace(asked, coordinates=True), reasons)  # lengths would have to be special
+    if made is not None:
+        return _drafted(made, topology)
+    listed = "; ".join(list(reasons)[-3:])  # of layouts whose home was moved, where any was reached
+    raise UsageError(
+        f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
+        hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
+    )
+
+
+def _found(asked: DraftQuestion, reasons: dict[str, None]) -> Attempt | None:
+    """The first layout that is sound, has the facts of the chains and is far enough from singular, else the best one.
+
+    Args:
+        asked: what it must be.
+        reasons: why layouts are none; they are added.
+    """
+    enough = _lengths_enough(asked.topology.poc)
     singular: list[Attempt] = []
-    for moved, layouts in itertools.product((False, True), layouts_for(chains)):
+    for moved, layouts in itertools.product((False, True), layouts_for(asked.chains)):
         sound: list[Attempt] = []
         for number, layout in enumerate(layouts):
             if number >= ENOUGH and all(made.clearance < NOWHERE or made.held > WELL for made in sound):
@@ -120,7 +141,7 @@ def drafted(
             free = made.travel >= FREE and made.held <= WELL
             if made.clearance >= GOOD and free and _lengths(made) >= enough:
                 if asked.agrees(made, reasons):
-                    return _drafted(asked.tied(made), topology)
+                    return asked.tied(made)
                 continue
             sound.append(made)
         for made in _best_first(sound, enough):
@@ -128,16 +149,11 @@ def drafted(
                 singular.append(made)
             elif asked.agrees(made, reasons):
                 if _is_clear(tied := asked.tied(made)):  # its formulas may change lengths
-                    return _drafted(tied, topology)
+                    return tied
                 singular.append(tied)
-    for made in _best_first(singular, enough):
-        if asked.agrees(made, reasons):
-            return _drafted(asked.tied(made), topology)
-    listed = "; ".join(list(reasons)[-3:])  # of layouts whose home was moved, where any was reached
-    raise UsageError(
-        f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
-        hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
-    )
+    agreeing = (made for made in _best_first(singular, enough) if asked.agrees(made, reasons))
+    best = next(agreeing, None)
+    return None if best is None else asked.tied(best)
 
 
 def _lengths_enough(poc: PocSet) -> int:

@@ -6,6 +6,9 @@ from typing import Any
 
 from assur.topology.facts import Topology
 
+MOTION = "POC set"
+"""The fact that special lengths decide, where loops close without them too."""
+
 
 def facts(topology: Topology) -> dict[str, Any]:
     """What must not depend on dimensions, by the name under which a person knows it.
@@ -18,7 +21,7 @@ def facts(topology: Topology) -> dict[str, Any]:
     """
     redundant = topology.redundant_constraints
     return {
-        "POC set": (topology.poc.t, topology.poc.r, topology.poc.dim),
+        MOTION: (topology.poc.t, topology.poc.r, topology.poc.dim),
         "degree of freedom": topology.dof,
         "internal freedoms": topology.internal_freedoms,
         "equations of the loops": tuple(sorted(topology.xi)),

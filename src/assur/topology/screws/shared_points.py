@@ -11,6 +11,7 @@ import dataclasses
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,13 +85,15 @@ def with_shared_points(
         point: (3,) O' at home; a limb that ends there alone has a label too.
     """
     naming = _Naming(lines, labels, size, {joint.name: _label(joint) for chain in chains for joint in chain.joints})
-    ends = []
-    for end in (0, -1):
-        runs = [run for chain in chains if (run := _end_run(chain, end))]
-        ends = [_Run(run, common_place([lines[name] for name in run])) for run in runs]
+    both = [
+        [_Run(run, common_place([lines[name] for name in run])) for chain in chains if (run := _end_run(chain, end))]
+        for end in (0, -1)
+    ]
+    naming.centre(both)
+    for ends in both:
         naming.one_end(ends)
     uses = Counter(naming.called.values())
-    at = {run.names[-1] for run in ends if not run.is_line and _off(point, run.place) < SAME * size}
+    at = {run.names[-1] for run in both[-1] if not run.is_line and _off(point, run.place) < SAME * size}
     kept = {name: label if uses[label] > 1 or name in at else "" for name, label in naming.called.items()}
     return tuple(Chain(_renamed(chain.elements, kept)) for chain in chains)
 
@@ -151,6 +154,26 @@ class _Naming:
     labels: Iterator[str]
     size: float
     called: dict[str, str]
+
+    def centre(self, ends: Sequence[Sequence[_Run]]) -> None:
+        """One label for a point in which axes of several limbs meet at both ends: the platform turns about it."""
+        met = [[self._crossing(*pair) for pair in combinations(runs, 2)] for runs in ends]
+        first, last = ([point for point in points if point is not None] for points in met)
+        centre = next((p for p, q in product(first, last) if np.max(np.abs(p - q)) < SAME * self.size), None)
+        if centre is None:
+            return
+        label = next(self.labels)
+        for run in (run for runs in ends for run in runs if _off(centre, run.place) < SAME * self.size):
+            before = self.called[run.names[0]]
+            self.called.update({name: label for name, other in self.called.items() if before and other == before})
+            self.called.update(dict.fromkeys(run.names, label))
+
+    def _crossing(self, run: _Run, other: _Run) -> FloatArray | None:
+        """The one point (3,) in which the axes of two runs meet."""
+        places = [run.place, other.place]
+        point, along = common_place(places)
+        met = all(_off(point, place) < SAME * self.size for place in places)
+        return None if along.any() or not met else point
 
     def one_end(self, runs: Sequence[_Run]) -> None:
         """One label for one place at this end: first the points, then the lines through a point or on one line."""
