@@ -27,6 +27,7 @@ KINDS = [
     [UPRIGHT_FIVE_BAR + " S", "S P[z] U[x,y]", "S P[z] U[x,y]"],
     ["{P[y] R[x] R[x] | R[x] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]"],
     ["{R[z] R[z] R[z] | R[z] R[z]} P[z]", "R[z] R[z] C[z]"],
+    ["P[x] P(2US)[x]", "{P[y] P(4R)[x] | P[y] P(4R)[x]} P(4R)[z]"],
 ]
 MM, DEG, STEPS = 9.0, 4.5, 20
 

@@ -92,6 +92,7 @@ LOOPED = (
     DraftLayout(wide=1.5, side=-120.0, twist=-50.0),
     DraftLayout(wide=1.5, side=60.0, twist=50.0, lean=0.3),
     DraftLayout(wide=1.5, knee=0.0, side=-120.0, twist=50.0, lean=0.0, elbow=0.0),
+    DraftLayout(wide=1.5, knee=0.0, side=120.0, twist=-100.0, spread=450.0, lean=0.7, elbow=0.8),
 )
 LAYOUTS = (PLAIN, DIVIDED)
 """Layouts in the order in which they are tried; of the first group the best, and only if none will do the others."""
