@@ -1,12 +1,14 @@
 """Chains recognised in a linkage: the paper's limbs, and labels where neighbouring axes meet."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.chains import InnerLoop, Parallelogram
-from assur.topology.notation import parse_chain, parse_chains
+from assur.topology.notation import parse_chain, parse_chains, plain_text
 from assur.topology.screws.placing import place
 from assur.topology.screws.recognition import recognised
 
@@ -24,6 +26,17 @@ def test_the_paper_has_a_hybrid_chain_with_an_inner_loop_and_one_with_two_parall
 def test_no_two_axes_of_the_paper_meet_so_no_point_is_labelled():
     joints = [joint for chain in recognised(linkage(load_record("zeng2019"))) for joint in chain.joints]
     assert not any(getattr(joint, "point", "") for joint in joints)
+
+
+def test_what_is_left_of_closing_loops_is_no_direction():
+    """The axis of a file whose home is closed to 1e-14, not [0,-1,56827755550416.35]."""
+    found = place(parse_chains(["P[x] R[z] R[z]", "R[z] R[z] R[z]"]))
+    joint = next(joint for joint in found.joints.values() if joint.screws[0, :3].any())
+    screws = joint.screws.copy()
+    screws[0, :3] = (0.0, -1.8e-14, 1.0)
+    turned = dataclasses.replace(joint, screws=screws)
+    near = dataclasses.replace(found, joints={**found.joints, joint.name: turned})
+    assert [plain_text(chain) for chain in recognised(near)] == ["P[x] R[z] R[z]", "R[z] R[z] R[z]"]
 
 
 MEETING = """

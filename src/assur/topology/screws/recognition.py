@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import count
 from typing import cast
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
-from assur.topology.directions import unit
+from assur.topology.directions import EXACT, Vector, unit
 from assur.topology.screws.common_lines import with_common_lines
 from assur.topology.screws.limbs import LinkagePath, limbs
 from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
@@ -49,7 +49,12 @@ def _joint(joint: LinkageJoint) -> ChainJoint:
     """A joint with its axes at home: of a C the one axis, of an S none."""
     rows = {step.direction: joint.screws[first] for step, first in joint.type.places}
     axes = [rows[k][:3] if rows[k][:3].any() else rows[k][3:] for k in range(joint.type.axes)]
-    return ChainJoint(joint.type, tuple(unit(axis) for axis in axes), name=joint.name)
+    return ChainJoint(joint.type, tuple(_direction(axis) for axis in axes), name=joint.name)
+
+
+def _direction(axis: Iterable[float]) -> Vector:
+    """An axis at home, where loops are closed to rounding: what cannot be told from zero is zero."""
+    return unit(0.0 if abs(part) < EXACT else part for part in unit(axis))
 
 
 def _parallelogram(group: Group, linkage: Linkage) -> Parallelogram:
@@ -57,9 +62,9 @@ def _parallelogram(group: Group, linkage: Linkage) -> Parallelogram:
     kind = cast(ParallelogramKind, group.kind.removeprefix("P(").removesuffix(")"))
     corners = [linkage.joints[name] for name in group.joints]
     if kind == "4R":
-        return Parallelogram(kind, unit(corners[0].screws[0, :3]), group.name)
+        return Parallelogram(kind, _direction(corners[0].screws[0, :3]), group.name)
     near = [corner.point for corner in corners if group.parent in (corner.parent, corner.child)]
-    return Parallelogram(kind, unit(near[1] - near[0]), group.name)
+    return Parallelogram(kind, _direction(near[1] - near[0]), group.name)
 
 
 def _marked(
