@@ -1,5 +1,6 @@
 """`assur sweep`: what single problems say, at every place of a grid; what is refused."""
 
+import dataclasses
 import json
 import re
 import shutil
@@ -10,6 +11,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.cli.sweep_grid import asked
+from assur.errors import UnknownNameError
+from assur.model.registry import load_record
 from assur.performance.indices import indices
 
 PLANE = ("--along", "x=-120:120:9", "--along", "z=250:550:11", "--at", "y=10")
@@ -170,6 +174,14 @@ def test_limits_left_out_are_those_of_the_file_in_its_units(assur_cli, tmp_path)
     words = ("--problem", "direct", "--along", "d1=2", "--along", "d2=2", "--at", "d3=200")
     data = assur_cli("sweep", "three_upu", *words, "-o", str(tmp_path / "c"), "--json").json
     assert [(item["low"], item["high"]) for item in data["along"]] == [(180.0, 320.0)] * 2
+
+
+def test_a_redundant_input_is_no_coordinate_of_a_grid_and_the_hint_says_why():
+    record = load_record("planar_3rrr")
+    more = dataclasses.replace(record, redundant_inputs=(dataclasses.replace(record.inputs[0], name="q4"),))
+    with pytest.raises(UnknownNameError) as refused:
+        asked(more, "direct", (), ("q4=0",))
+    assert refused.value.hint.startswith("q4 is redundant: it follows")
 
 
 @pytest.mark.parametrize(

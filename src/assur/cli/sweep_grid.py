@@ -101,7 +101,9 @@ def _at_home(record: MechanismRecord, problem: Problem) -> dict[str, Place]:
 
 def _known(record: MechanismRecord, name: str, kinds: dict[str, str]) -> None:
     if name not in kinds:
-        raise UnknownNameError(f"coordinate of this grid of {record.name}", name, kinds)
+        follows = name in {item.name for item in record.redundant_inputs}
+        hint = f"{name} is redundant: it follows from the others, along which the grid is" if follows else ""
+        raise UnknownNameError(f"coordinate of this grid of {record.name}", name, kinds, hint=hint)
 
 
 def _of_file(record: MechanismRecord, problem: Problem, name: str, kind: str) -> tuple[float, float]:
