@@ -16,6 +16,7 @@ from pathlib import Path
 from assur.cache import code_digest, keep, own_content
 from assur.derivation.derivation import derive
 from assur.derivation.not_derived import NotDerivedError
+from assur.errors import FileError
 from assur.kinematics.closing_blocks.kept import CODE
 from assur.kinematics.contract import check
 from assur.kinematics.contract.check import problems
@@ -96,9 +97,16 @@ def _that_agrees(record: MechanismRecord) -> str:
     derivation = derive(record)
     for solution in (derivation.direct, derivation.inverse):
         solution.held_against_loops()
-    text = derivation.closed_form()
     plain = record.without_closed_form
-    form = names_of(text, Path(CLOSED_FORM))["CLOSED_FORM"]
+    try:
+        text = derivation.closed_form()
+        form = names_of(text, Path(CLOSED_FORM))["CLOSED_FORM"]
+    except FileError as error:
+        own = error.problems[0]
+        raise NotDerivedError(
+            f"its formulas would have {own.given}, {own.allowed}: axes by fewer digits, or by parameters, make "
+            "them shorter"
+        ) from error
     against, _ = problems(plain.with_closed_form(form, text), IN_FULL)
     if against:
         raise NotDerivedError(f"the joint graph does not agree with what was derived: {against[0].given}")

@@ -17,7 +17,10 @@ from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
 from assur.model.written import NumberReading
+from assur.numerics.prime_field import SIMPLE
 
+SHORT = 999
+"""Numerator and denominator of a rational whose root a decimal of fifteen digits is told by."""
 Circle = tuple[sympy.Symbol, sympy.Symbol]
 """Cosine and sine of an angle."""
 
@@ -34,8 +37,17 @@ def abs_of(symbol: sympy.Expr) -> sympy.Symbol:
 
 @lru_cache(maxsize=1024)
 def _literal(text: Any) -> sympy.Expr:
-    """A number of a file; a root where its digits are those of one, before a limb is turned: so axes stay units."""
-    return sympy.nsimplify(sympy.Rational(text))
+    """A number of a file; of the digits of a root of a short rational this root: so turned axes stay units.
+
+    >>> _literal("-0.8660254037844386"), _literal("0.8660"), _literal("0.3333333333333333")
+    (-sqrt(3)/2, 433/500, 1/3)
+    """
+    own = sympy.Rational(text)
+    exact = Fraction(int(own.p), int(own.q)) ** 2
+    square = exact.limit_denominator(SHORT)
+    if square.numerator > SHORT or abs(exact - square) > 4 * Fraction(SIMPLE) * square:
+        return own
+    return sympy.sign(own) * sympy.sqrt(sympy.Rational(square.numerator, square.denominator))
 
 
 def _exact(part: Any) -> sympy.Expr:

@@ -24,7 +24,8 @@ LEAST, TRIES = 2**160, 20_000
 TRIED = 1000
 """Prime factors up to this are looked for under roots of rationals; what is left counts as one."""
 SIMPLE = Fraction(1, 2**51)
-FEW = 1024
+FEW, SHORT = 1024, 999
+"""The second: numerator and denominator of a rational whose root a decimal of fifteen digits is told by."""
 
 
 class NoRootError(ArithmeticError):
@@ -132,6 +133,8 @@ class CircleField:
     (True, 0)
     """
 
+    rooted = False
+
     def __init__(self, p: int | None = None) -> None:
         self.p = p or prime()
         self._roots: dict[int, Element] = {}
@@ -145,8 +148,9 @@ class CircleField:
         return other
 
     def number(self, value: Fraction) -> Element:
-        """A rational."""
-        return Element(self.p, 0).of(value)
+        """A rational; if `rooted`, of the digits of a root this root."""
+        square = short_square(value) if self.rooted else None
+        return Element(self.p, 0).of(value) if square is None else self.root(square) * (1 if value > 0 else -1)
 
     def uniform(self) -> Element:
         """Any number of F_p."""
@@ -259,10 +263,16 @@ def simplest(number: float) -> Fraction:
         rest = 1 / (rest - whole)
 
 
+def short_square(value: Fraction) -> Fraction | None:
+    """The short rational whose root has the digits of a rational; else None.
+
+    >>> short_square(Fraction("-0.8660254037844386")), short_square(Fraction("0.8660"))
+    (Fraction(3, 4), None)
+    """
+    square = (value * value).limit_denominator(SHORT)
+    return square if square.numerator <= SHORT and abs(value * value - square) <= 4 * SIMPLE * square else None
+
+
 def _power(base: Element, exponent: int) -> Element:
-    result = Element(base.p, 1)
-    for digit in bin(exponent)[2:]:
-        result = result * result
-        if digit == "1":
-            result = result * base
-    return result
+    half = _power(base, exponent // 2) if exponent > 1 else Element(base.p, 1)
+    return half * half * (base if exponent % 2 else 1)

@@ -34,15 +34,14 @@ class _Place(CircleField):
     """A prime field in which numbers that are drawn have roots too, and numbers at the roots of a polynomial."""
 
     last: RootNumber | None = None
+    rooted = True
 
     def root(self, value: Any) -> Any:
         """A root; of what stands for a rational of few digits that of the rational."""
         if isinstance(value, RootNumber):
             self.last = value.root(self.last)
             return self.last
-        if not isinstance(value, Element):
-            return super().root(value)
-        plain_one = few_digits(value)
+        plain_one = few_digits(value) if isinstance(value, Element) else value
         return value.root() if plain_one is None else super().root(plain_one)
 
 
@@ -155,11 +154,8 @@ class _DrawnBranches:
             start, end = rotations.get(hop.start), rotations.get(hop.end)
             if start is None or end is None:
                 continue
-            after = product(start, hop.after)
-            if hop.axis is None:
-                fits = same(after, end, _zero)
-            else:
-                fits = all(map(_zero, subtract(apply(start, hop.axis), apply(end, hop.back.axis or hop.axis))))
+            gap = hop.axis and subtract(apply(start, hop.axis), apply(end, hop.back.axis or hop.axis))
+            fits = all(map(_zero, gap)) if gap else same(product(start, hop.after), end, _zero)
             require(fits, f"{hop.start} and {hop.end} are turned as their joint does not let them")
 
     def _vector(self, values: Mapping[str, Any], parts: Sequence[str]) -> Vector:

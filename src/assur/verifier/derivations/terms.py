@@ -6,6 +6,7 @@ of one angle, roots. That shows an identity exactly. It never makes zero of what
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -13,7 +14,7 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from assur.verifier.field import NoExactError
+from assur.verifier.field import NoExactError, short_square
 from assur.verifier.formula import PI, AngleSum
 
 TRIED = 1000
@@ -99,8 +100,9 @@ class WrittenNumbers:
     _roots: list[tuple[Term, Term]] = field(default_factory=list)
 
     def number(self, value: Fraction) -> Term:
-        """A rational."""
-        return term(value)
+        """A rational; of the digits of a root of a short one this root."""
+        square = short_square(value)
+        return term(value) if square is None else self.root(square) * (1 if value > 0 else -1)
 
     def radians(self, angle: AngleSum) -> Term:
         """No term is an angle."""
@@ -113,17 +115,15 @@ class WrittenNumbers:
             if plain is None:
                 return self._root(value)
             value = plain
-        rest, outer = abs(Fraction(value).numerator * Fraction(value).denominator), 1
-        result = term(1)
+        rest, outer, result = abs(Fraction(value).numerator * Fraction(value).denominator), 1, term(1)
         for small in range(2, TRIED):
             while rest and rest % (small * small) == 0:
                 rest, outer = rest // (small * small), outer * small
             if rest and rest % small == 0:
                 rest, result = rest // small, result * self._named(f"sqrt({small})", term(small))
-        if rest != 1:
-            result = result * (self._named(f"sqrt({rest})", term(rest)) if rest else 0)
-        if Fraction(value) < 0:
-            result = result * self._named("sqrt(-1)", term(-1))
+        whole = math.isqrt(rest)
+        result = result * (whole if whole * whole == rest else self._named(f"sqrt({rest})", term(rest)))
+        result = result * (self._named("sqrt(-1)", term(-1)) if Fraction(value) < 0 else 1)
         return result * Fraction(outer, Fraction(value).denominator)
 
     def _root(self, value: Term) -> Term:
