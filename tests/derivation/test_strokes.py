@@ -1,10 +1,12 @@
 """Sliders on links that turn: legs of either sign, and ends that stand aside of them."""
 
+import json
 import math
 
 import pytest
 import sympy
 
+from assur.cli.main import main
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.sets import next_set
 from assur.derivation.solution import analytic_solution
@@ -12,6 +14,8 @@ from assur.derivation.strokes import stroke_vectors
 from assur.derivation.unknown_directions import UnknownDirection
 from assur.derivation.witness import ModularWitness
 from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 ASIDE = """
 format = 1
@@ -117,3 +121,23 @@ def test_a_vector_that_is_not_solved_alone_is_refused_by_its_link():
     (vector,), forms = platform_on_a_slider((0, 0), (a, b))
     with pytest.raises(NotDerivedError, match="platform: turns, carries a slider, and no vector"):
         next_set(forms[2:], [vector.direction], ModularWitness(), after=[vector.circle])
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    "chains",
+    [
+        ["R[z] P[x] R[z]", "P[x] R[z] R[z]", "R[z] R[z] P[x]"],
+        ["R[z] R[z] P[x]", "R[z] R[z] R[z]", "R[z] R[z] R[z]"],
+    ],
+)
+def test_the_angle_of_a_platform_that_slides_on_a_link_says_all_else(chains, tmp_path, capsys):
+    """One slider on the platform and two dyads: lengths along its direction are linear once its angle is known."""
+    path, data = tmp_path / "own.toml", tmp_path / "d.json"
+    path.write_text(drafted(parse_chains(chains), path).text, encoding="utf-8")
+    solution = analytic_solution(load_record(path), "direct")
+    assert (solution.branches, solution.closes()) == (6, True)
+    assert main(["derive", str(path), "--problem", "direct", "--prove", "--json"]) == 0
+    data.write_text(capsys.readouterr().out, encoding="utf-8")
+    assert json.loads(data.read_text(encoding="utf-8"))["problems"][0]["count"]["solutions"] == 6
+    assert main(["verify", str(data), "--mechanism", str(path)]) == 0

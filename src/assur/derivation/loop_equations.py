@@ -15,7 +15,7 @@ one direction alone: cos^2 + sin^2 = 1, the direction of a rod has length 1, and
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import sympy
@@ -24,7 +24,7 @@ from assur.derivation.carried_vectors import CarriedVectors
 from assur.derivation.definitions import Definition
 from assur.derivation.dimension_relations import dimension_relations
 from assur.derivation.hinges import Hinge
-from assur.derivation.linear import Form, form_of
+from assur.derivation.linear import ONE, Form, form_of, value_of
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
@@ -81,6 +81,15 @@ class LoopEquations:
     def axes(self) -> int:
         """How many equations of axes that links share there are."""
         return len(self.shared)
+
+    def carried_by(self, circle: UnknownDirection, witness: ModularWitness) -> LoopEquations:
+        """The same with a circle as coefficients, so that lengths along its directions are linear unknowns."""
+        strokes = {length: own for length, own in self.strokes.items() if own != circle}
+        free = [length for length, own in self.strokes.items() if own == circle]
+        unknowns = [key for form in self.forms for key in form if key != ONE and key not in circle.unknowns]
+        linear = list(dict.fromkeys([*free, *unknowns]))
+        forms = tuple(form_of(value_of(form), linear, witness) for form in self.forms)
+        return replace(self, forms=forms, strokes=strokes, carriers=(*self.carriers, circle))
 
 
 def loop_equations(symbols: GivenSymbols, placed: LinkOrientations) -> LoopEquations:

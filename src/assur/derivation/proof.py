@@ -101,7 +101,8 @@ class _Proof:
         return form_of(value_of(form), unknowns, self.witness)
 
     def _lengths(self) -> dict[str, Mapping[str, str]]:
-        unknowns = [*self.fixed, *(own for direction in self.directions for own in direction.unknowns)]
+        turning = [direction for direction in self.directions if direction not in self.loops.carriers]
+        unknowns = [*self.fixed, *(own for direction in turning for own in direction.unknowns)]
         span = LinearSpan(self.rows, unknowns, self.witness, self.fixed)
         return {
             str(own.symbol): _texts(span.multipliers(form_of(own.symbol - own.formula, unknowns, self.witness)))

@@ -34,6 +34,7 @@ from assur.derivation.linear import (
 from assur.derivation.loop_equations import LoopEquations, loop_equations
 from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, orientations
+from assur.derivation.resisting_set import ResistingSetError
 from assur.derivation.sets_in_order import SetProblem
 from assur.derivation.strokes import stroke_vectors
 from assur.derivation.symbols import GivenSymbols
@@ -199,6 +200,22 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     placed = orientations(symbols)
     loops = loop_equations(symbols, placed)
     witness.home = home_numbers(symbols, placed, loops)
+    try:
+        return _solved(symbols, placed, loops)
+    except ResistingSetError as error:  # where links slide on one that turns, its angle taken as known may say all else
+        for circle in dict.fromkeys(own for own in loops.strokes.values() if own.kind == "circle"):
+            with contextlib.suppress(NotDerivedError):
+                return _solved(symbols, placed, loops.carried_by(circle, witness))
+        raise error
+
+
+def _solved(symbols: GivenSymbols, placed: LinkOrientations, loops: LoopEquations) -> AnalyticSolution:
+    """Set by set.
+
+    Errors:
+        NotDerivedError: a set that resists, or lengths.
+    """
+    witness = symbols.witness
     vectors, forms = stroke_vectors(loops.forms, loops.strokes, witness)
     fixed = [length for length in loops.lengths.values() if length not in {*loops.strokes, *loops.oblique}]
     forms = [_with_turning_lengths(form, loops) for form in forms]
@@ -213,6 +230,9 @@ def analytic_solution(record: MechanismRecord, problem: Problem) -> AnalyticSolu
     short = [*axes, *sparse([divided(shorter(form, symbols.circles, witness)) for form in short], witness)]
     _refuse_oblique(short, loops)
     sets = SetProblem(short, lambda: projected(forms, fixed, witness)[1], loops, vectors, symbols, placed).sets()
+    carrying = {symbol for own in loops.carriers for symbol in own.unknowns}
+    if any(share.free_symbols & carrying for share in shares):  # along a direction that is of length 1 at a root alone
+        lengths, _ = projected(forms, fixed, witness)
     known = {**loops.oblique, **{symbol: value_of(form) for symbol, form in lengths.items()}}
     backward = tuple(Definition(symbol, formula) for symbol, formula in known.items())
     for own in backward:
