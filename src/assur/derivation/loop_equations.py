@@ -29,6 +29,7 @@ from assur.derivation.not_derived import NotDerivedError
 from assur.derivation.orientations import LinkOrientations, Orientation
 from assur.derivation.symbols import GivenSymbols
 from assur.derivation.unknown_directions import UnknownDirection
+from assur.derivation.witness import ModularWitness
 from assur.joint_graph.tree import joint_graph
 from assur.joints.steps import UNTURNED, about
 from assur.model.mechanism import Joint
