@@ -189,8 +189,8 @@ def renamed(
     """What a mode is called that is given by a number, of all solutions or of those that share signs; "" of others.
 
     >>> from assur.model.registry import load_record
-    >>> renamed(load_record("planar_3rpr"), "inverse", "1"), renamed(load_record("planar_3rpr"), "inverse", "+++")
-    ('a number is no name: at home number 1 is now +++', '')
+    >>> renamed(load_record("fivebar"), "inverse", "1"), renamed(load_record("fivebar"), "inverse", "++")
+    ('a number is no name: at home number 1 is now ++', '')
     """
     numbered = re.fullmatch(r"([-+0]*)/?([1-9]\d{0,3})", mode)
     if not numbered:
@@ -200,7 +200,11 @@ def renamed(
     solutions = _answer(record, problem, asked, None, method, crossed=False)
     labels = [str(label) for label in solutions.labels[solutions.exists]]
     alike, number = [label for label in labels if label.startswith(numbered[1])], int(numbered[2])
-    known = f"number {mode} is now {alike[number - 1]}" if number <= len(alike) else f"of {mode} there is none"
+    known = (
+        f"number {mode} is now {alike[number - 1] or 'the one mode, which needs no name'}"
+        if number <= len(alike)
+        else f"of {mode} there is none"
+    )
     return f"a number is no name: {'where this was asked' if one else 'at home'} {known}"
 
 

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.joint_graph.geometry import joint_scales
 from assur.kinematics.answers.answer import answer
+from assur.kinematics.border import inputs_of
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.home_solution import home_solution
 from assur.kinematics.position import direct, inverse
@@ -36,14 +38,25 @@ def test_solutions_are_marked_by_following(path):
     assert home.words == f"home: mode {label}, followed straight from home"
 
 
-def test_where_home_folds_back_no_solution_is_marked_and_where_a_path_stops_it_is_not_decided(path):
+def test_where_home_folds_back_no_solution_is_marked(path):
     record = load(path)
     beyond = home_solution(inverse(record, [240.0]))
     assert beyond.marks == (False, False)
     assert beyond.words.startswith("home: none of these, which is proved")
-    behind = home_solution(direct(record, [np.radians(120.0)]))
-    assert behind.marks == (None, None)
-    assert behind.words == "home: not decided, as the straight path from home stops before a serial singularity"
+
+
+def test_home_is_followed_through_singularities_at_which_its_assemblies_do_not_merge(path):
+    """The crank passes a serial singularity on the way; its assemblies in small steps say which is home's, too."""
+    record = load(path)
+    end = np.radians(120.0)
+    behind = home_solution(direct(record, [end]))
+    assert behind.words == "home: mode +, followed from home, with serial singularities let through"
+    followed, scales = record.home_values, joint_scales(record)
+    for angle in np.linspace(inputs_of(record, followed)[0], end, 300):
+        joints = direct(record, [angle]).joints
+        followed = joints[np.argmin(np.max(np.abs((joints - followed) / scales), axis=1))]
+    last = direct(record, [end])
+    assert list(behind.marks) == [bool(np.allclose(row, followed)) for row in last.joints[last.exists]]
 
 
 def test_signs_and_following_mark_the_same_solution():
