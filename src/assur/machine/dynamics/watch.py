@@ -24,6 +24,9 @@ KINDS = {"inputs": "parallel", "poses": "serial"}
 """What is singular where a matrix with these locked loses its rank."""
 NEARBY = 0.1
 """So far joint values move at most between two looks, in rad or characteristic lengths."""
+RETURNING = 1e-5
+"""Smallest singular value up to which a rank that comes back is lost where another one is: there joint values are known
+to the root of rounding alone, as where parallelograms are flat."""
 HALVINGS = 40
 """Of the time in which an event lies: to rounding."""
 
@@ -83,7 +86,8 @@ class Watch:
     def _singular(self, passed: list[str], time: float, values: FloatArray) -> Departure | None:
         """With the rank of these matrices that of others may be lost, which comes back: none where all are kept."""
         sizes = smallest(self.record, values, self.ranks)
-        lost = [name for name, size in sizes.items() if name in passed or size <= SINGULAR]
+        most = RETURNING if passed else SINGULAR
+        lost = [name for name, size in sizes.items() if name in passed or size <= most]
         if not lost:
             return None
         kinds = [kind for name, kind in KINDS.items() if name in lost]
