@@ -116,7 +116,10 @@ def test_they_tell_the_solutions_apart_as_the_closed_form_does(name, problem, gi
 
 @pytest.mark.parametrize(("problem", "branches"), [("inverse", 32), ("direct", 8)])
 def test_they_tell_every_branch_apart_that_there_is_anywhere(problem, branches):
-    """At one pose eight of the paper's 32 are real at most; the names are one for one those of the closed form."""
+    """At one pose eight of the paper's 32 are real at most; who knows the name knows that of the closed form.
+
+    The converse need not hold: of signs that do so at three problems by chance others may be chosen, and one more then.
+    """
     record = load_record("zeng2019")
     closed = assemble(record, by_chance(record, 1000, np.random.default_rng(3)), far=True)
     values = closed.values[closed.closed]
@@ -130,7 +133,7 @@ def test_they_tell_every_branch_apart_that_there_is_anywhere(problem, branches):
         len(np.unique(np.hstack([*own, asked])[regular], axis=0)) for own in ((written,), (named,), (written, named))
     ]
     assert len(np.unique(written[regular], axis=0)) == branches
-    assert kinds[0] == kinds[1] == kinds[2]
+    assert kinds[0] <= kinds[1] == kinds[2] <= 2 * branches
 
 
 def test_solutions_of_one_sign_get_letters():
